@@ -1,0 +1,1 @@
+# The two programs, and the makers of assets

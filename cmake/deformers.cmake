@@ -1,0 +1,2 @@
+find_package(OpenMesh REQUIRED CONFIG)
+sinew_layer(sinew_deformers deformers sinew_geometry)

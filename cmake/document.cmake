@@ -1,0 +1,1 @@
+sinew_layer(sinew_document engine/document sinew_io)

@@ -1,0 +1,131 @@
+#pragma once
+/// Deformer: the interface of a method. It owns the unknowns x; from constraints it solves for x, and from x it gives a
+/// Pose. Deformers know no file, window or GPU; the rest of the program knows them only by what stands here.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/geometry/shape.h"
+#include "engine/geometry/skin_weights.h"
+
+namespace sinew {
+
+/// Points that are to be at targets; both relative to the shape's origin, in its unit. targets.size() == points.size().
+struct Handle {
+  std::vector<Index> points;
+  std::vector<Vec3> targets;
+
+  bool operator==(const Handle&) const = default;
+};
+
+/// What an edit asks for. Indices are points of the shape that the deformer was made for.
+struct Constraints {
+  std::vector<Index> fixed;  ///< points that stay exactly where they are
+  std::vector<Handle> handles;
+};
+
+enum class Status { Converged, MaxIterations, Stalled, Stopped, Failed };
+const char* name_of(Status status);  ///< "converged", "max_iterations", "stalled", "stopped", "failed"
+
+/// Named figures in the order they are shown; the names are those of the report (interface.md): "rotation", "nodes",
+/// ...
+using Figures = std::vector<std::pair<std::string, double>>;
+
+struct SolveReport {
+  Status status = Status::Converged;
+  std::string message;  ///< one sentence where status is Stalled or Failed or something was left out; else empty
+  int iterations = 0;
+  Figures counts;         ///< unknowns, nodes, edges, ...
+  Figures energy;         ///< total first, then its terms, weighted, in normalised coordinates
+  double handle_rms = 0;  ///< distance of handle points from their targets, in units of the diagonal
+  double handle_max = 0;
+  double prefactor_seconds = 0;  ///< ordering, symbolic analysis and constant parts, when handles came or went
+  double solve_seconds = 0;      ///< all iterations
+};
+
+struct SolveOptions {
+  /// Interactive: good enough to look at while dragging, from the last x, as fast as possible.
+  /// Final: the minimum of the method's own energy to convergence.
+  enum class Quality { Interactive, Final } quality = Quality::Final;
+  int max_iterations = 100;
+  double epsilon = 1e-6;  ///< of the method's stop tests
+  /// Called after every accepted iteration with the Pose so far; false stops the solve (Status::Stopped).
+  std::function<bool(const Pose&)> on_iteration;
+};
+
+class Deformer {
+ public:
+  virtual ~Deformer() = default;
+
+  /// Weights of the shape's own points, bound when the deformer was made.
+  virtual const SkinWeights& weights() const = 0;
+
+  /// Weights of any other points of the same space, relative to the same origin.
+  virtual SkinWeights bind(std::span<const Vec3> points) const = 0;
+
+  /// Minimises from the present x (warm). What depends only on which points are fixed and which are handles is kept
+  /// between calls and redone when they change. The pose is always usable afterwards, whatever the status.
+  virtual SolveReport solve(const Constraints& constraints, const SolveOptions& options) = 0;
+
+  /// The maps of the present x, in the shape's coordinates.
+  virtual const Pose& pose() const = 0;
+
+  /// x back to rest (the identity everywhere), or to an earlier pose of this deformer, to start from there.
+  virtual void reset() = 0;
+  virtual void start_from(const Pose& pose) = 0;
+
+  /// Lines and dots to draw of the method's own structure (graph nodes and edges, tets, coarse shell), at rest:
+  /// vertices relative to the shape's origin, edges as pairs of them, and the map each vertex follows.
+  struct Structure {
+    std::vector<Vec3> vertices;
+    std::vector<std::pair<Index, Index>> edges;
+    std::vector<Index> maps;
+  };
+  virtual Structure structure() const = 0;
+
+  /// What a pose file needs in order to bind and bend other files without solving: plain numbers by name, each a table
+  /// with `columns` numbers a row (graph: "nodes" 3, "neighbours" 1). Coordinates are relative to the shape's origin.
+  struct Table {
+    std::string name;
+    int columns = 1;
+    std::vector<double> values;
+  };
+  virtual std::vector<Table> binding() const = 0;
+};
+
+/// A setting of a method, described once: panel, edit file, `--set` and manual loop over it. Integers and choices are
+/// kept as doubles; a choice is the index of its name.
+struct Setting {
+  std::string name;
+  double standard = 0, min = 0, max = 0;
+  std::string unit;  ///< "", "1/diagonal", "points", ...
+  std::string help;  ///< one sentence
+  bool integer = false;
+  std::vector<std::string> choices;  ///< of a choice; otherwise empty
+};
+
+/// Values by name; what is missing has its standard value.
+using Settings = std::vector<std::pair<std::string, double>>;
+double value_of(const Settings& settings, std::span<const Setting> described, const std::string& name);
+
+/// A method as the application hands it to document: one row of the table in deformers/methods.h.
+struct Method {
+  std::string name;  ///< "graph", "tet", "shell"
+  std::string help;  ///< one sentence
+  std::vector<Setting> settings;
+  /// Makes the deformer of a rest shape: builds its structure and binds the shape's points. Throws InputError where the
+  /// shape can't be bent by this method. `progress` is called with 0..1; false cancels (returns null). May be empty.
+  std::function<std::unique_ptr<Deformer>(std::shared_ptr<const Shape> rest, const Settings& settings,
+                                          const std::function<bool(double)>& progress)>
+      make;
+  /// Binds points from the tables of a pose file (Deformer::binding) without a deformer. Throws InputError with a
+  /// message about the tables (the caller adds the path).
+  std::function<SkinWeights(const std::vector<Deformer::Table>& binding, std::span<const Vec3> points)> bind;
+};
+
+}  // namespace sinew

@@ -1,0 +1,58 @@
+#include "engine/geometry/shape.h"
+
+#include <cmath>
+
+#include "engine/geometry/bounds.h"
+
+namespace sinew {
+
+Attribute* Shape::find(const std::string& name) {
+  for (Attribute& attribute : attributes)
+    if (attribute.name == name) return &attribute;
+  return nullptr;
+}
+
+const Attribute* Shape::find(const std::string& name) const {
+  return const_cast<Shape*>(this)->find(name);
+}
+
+Vec3 choose_origin(const Vec3& min, const Vec3& max) {
+  Vec3 origin = Vec3::Zero();
+  for (int c = 0; c < 3; ++c) {
+    const double centre = 0.5 * (min[c] + max[c]), extent = max[c] - min[c];
+    // Within a quarter of the centre, every x lies in [origin/2, 2 origin]: the difference is exact. Rounding the
+    // centre to 20 bits keeps it there and makes the origin a short number to read.
+    if (!(std::abs(centre) > 8 * extent) || centre == 0) continue;
+    const double step = std::exp2(std::floor(std::log2(std::abs(centre))) - 20);
+    origin[c] = std::round(centre / step) * step;
+  }
+  return origin;
+}
+
+void set_origin(Shape& shape) {
+  CHECK(shape.origin.isZero(), shape.origin.transpose());
+  const Bounds bounds = bounds_of(shape.positions);
+  if (bounds.empty()) return;
+  shape.origin = choose_origin(bounds.min, bounds.max);
+  if (shape.origin.isZero()) return;
+  for (Vec3& p : shape.positions) p -= shape.origin;
+}
+
+Sequence still(std::shared_ptr<const Shape> shape) {
+  Sequence sequence;
+  sequence.load = [shape = std::move(shape)](int) { return shape; };
+  return sequence;
+}
+
+const char* representation(const Shape& shape) {
+  if (!shape.parts.empty()) return "scan set";
+  if (shape.faces.empty()) return "point cloud";
+  std::vector<bool> used(shape.size(), false);
+  for (const Index p : shape.faces.points) {
+    if (used[p]) return "mesh";
+    used[p] = true;
+  }
+  return "polygon soup";
+}
+
+}  // namespace sinew
