@@ -19,9 +19,8 @@ std::string to_text(T x) {
   return {buffer, result.ptr};
 }
 
-}  // namespace
-
-bool parse(std::string_view text, double& out) {
+template <class T>
+bool parse_real(std::string_view text, T& out) {
   const std::string_view digits = without_plus(text);
   const char* const end = digits.data() + digits.size();
   const auto [at, error] = std::from_chars(digits.data(), end, out);
@@ -33,8 +32,18 @@ bool parse(std::string_view text, double& out) {
   const bool tiny = e != std::string_view::npos
                         ? digits.substr(e + 1).starts_with('-')
                         : digits.starts_with("0.") || digits.starts_with("-0.") || digits.starts_with('.');
-  if (tiny) out = digits.starts_with('-') ? -0.0 : 0.0;
+  if (tiny) out = digits.starts_with('-') ? T{-0.0F} : T{0};
   return tiny;
+}
+
+}  // namespace
+
+bool parse(std::string_view text, double& out) {
+  return parse_real(text, out);
+}
+
+bool parse(std::string_view text, float& out) {
+  return parse_real(text, out);
 }
 
 bool parse(std::string_view text, std::int64_t& out) {

@@ -35,6 +35,10 @@ class TextCursor {
     return {text_.substr(begin, at_ - begin), begin, line_, static_cast<std::int64_t>(begin - line_begin_) + 1};
   }
 
+  bool at_line_end() const { return at_end() || is_end(text_[at_]); }
+  /// Goes to byte `at`; within the present line, or places in messages are wrong from here on.
+  void seek(std::size_t at) { at_ = at; }
+
   /// The rest of this line, without its end; then stands at the end of the line.
   std::string_view rest() {
     const std::size_t begin = at_;
@@ -78,6 +82,7 @@ class TextCursor {
 /// The whole of `text` as a number: decimal, with an optional '+'; "nan", "inf", "infinity" in any case. Independent of
 /// the locale. False where it is anything else or out of range (a double too small is zero or subnormal, not an error).
 bool parse(std::string_view text, double& out);
+bool parse(std::string_view text, float& out);
 bool parse(std::string_view text, std::int64_t& out);
 
 /// The shortest decimal that reads back as the same double, or the same float.
