@@ -1,0 +1,144 @@
+#include "engine/io/text_patch.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "engine/io/bytes.h"
+
+namespace sinew::io {
+
+namespace {
+
+/// "123.456" has six significant digits, "1.0e-5" two; zeros in front do not count.
+int significant_digits(std::string_view text) {
+  int count = 0;
+  for (const char c : text) {
+    if (c == 'e' || c == 'E') break;
+    if (c >= '0' && c <= '9' && (count > 0 || c != '0')) ++count;
+  }
+  return count;
+}
+
+struct NumberText {
+  char buffer[32];
+  std::string_view text;
+
+  NumberText(double x, Type type) {
+    const auto f = static_cast<float>(x);
+    const bool as_float = type == Type::Float32 && (std::abs(x) < float_limit || static_cast<double>(f) == x);
+    char* const end = buffer + sizeof(buffer);
+    const auto result = as_float ? std::to_chars(buffer, end, f) : std::to_chars(buffer, end, x);
+    text = {buffer, static_cast<std::size_t>(result.ptr - buffer)};
+  }
+};
+
+}  // namespace
+
+void report_progress(const ReadOptions& options, std::size_t done, std::size_t all) {
+  if (options.progress &&
+      !options.progress(static_cast<double>(done) / static_cast<double>(std::max<std::size_t>(all, 1))))
+    throw Cancelled{};
+}
+
+std::size_t text_begin(const std::string& path, std::span<const std::byte> bytes) {
+  const std::string_view text = as_text(bytes);
+  const std::string expected = "text in ASCII or UTF-8";
+  if (text.empty()) throw file_error(path, expected, "an empty file");
+  if (text.starts_with(std::string_view("\xff\xfe\0\0", 4)) || text.starts_with(std::string_view("\0\0\xfe\xff", 4)))
+    throw byte_error(path, 0, expected, "UTF-32 (by its byte order mark)");
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw byte_error(path, 0, expected, "UTF-16 (by its byte order mark)");
+  const std::size_t zero = text.find('\0');
+  if (zero == 0 || (zero == 1 && text.find('\0', 2) == 3))
+    throw byte_error(path, static_cast<std::int64_t>(zero), expected, "a zero byte, as in UTF-16");
+  if (zero != std::string_view::npos) throw byte_error(path, static_cast<std::int64_t>(zero), expected, "a zero byte");
+  return text.starts_with("\xef\xbb\xbf") ? 3 : 0;
+}
+
+bool Precision::fits_float(std::string_view text, double x) const {
+  if (!std::isfinite(x) || x == 0) return true;
+  const double size = std::abs(x);
+  if (!(size < limit_)) return false;
+  const auto f = static_cast<float>(x);
+  if (static_cast<double>(f) == x) return true;
+  // FLT_DIG: any six digits survive a float that is not subnormal.
+  if (significant_digits(text) <= 6 && size > 1e-36 && size < 1e36) return true;
+  double back = 0;
+  return parse(shortest(f), back) && back == x;
+}
+
+void append_text(std::vector<std::byte>& out, std::string_view text) {
+  const auto* begin = reinterpret_cast<const std::byte*>(text.data());
+  out.insert(out.end(), begin, begin + text.size());
+}
+
+void append_number(std::string& out, double x, Type type) {
+  out += NumberText(x, type).text;
+}
+
+void append_number(std::vector<std::byte>& out, double x, Type type) {
+  append_text(out, NumberText(x, type).text);
+}
+
+double as_read(double x, Type type) {
+  return type == Type::Float32 ? static_cast<double>(static_cast<float>(x)) : x;
+}
+
+namespace {
+
+bool same(double a, double b) {
+  return a == b || (std::isnan(a) && std::isnan(b));
+}
+
+}  // namespace
+
+void TextPatch::set(std::size_t begin, std::string_view token, double now, Type type, double origin) {
+  double read = 0;
+  if (parse(token, read)) {
+    const double was = as_read(read, type);
+    // The same subtraction as set_origin's: it holds for coordinates too that origin does not subtract from exactly.
+    if (same(now, was - origin) || same(as_read(now + origin, type), was)) return;
+  }
+  CHECK(begin >= copied_, begin, copied_);
+  append_text(out_, as_text(from_.subspan(copied_, begin - copied_)));
+  append_number(out_, now + origin, type);
+  copied_ = begin + token.size();
+}
+
+std::vector<std::byte> TextPatch::finish() {
+  append_text(out_, as_text(from_.subspan(copied_)));
+  copied_ = from_.size();
+  return std::move(out_);
+}
+
+Attribute number_attribute(std::string name, std::vector<std::string> fields, Kind kind, Type type,
+                           std::span<const double> values) {
+  Attribute attribute;
+  attribute.components = static_cast<int>(fields.size());
+  attribute.name = std::move(name);
+  attribute.fields = std::move(fields);
+  attribute.kind = kind;
+  attribute.type = type;
+  attribute.values.resize(values.size() * size_of(type));
+  if (type == Type::Float32) {
+    std::transform(values.begin(), values.end(), attribute.as<float>().begin(),
+                   [](double x) { return static_cast<float>(x); });
+  } else {
+    std::copy(values.begin(), values.end(), attribute.as<double>().begin());
+  }
+  return attribute;
+}
+
+void report_lost_attributes(const std::string& format, const Shape& shape, const std::vector<std::string>& held,
+                            WriteReport& report) {
+  for (const Attribute& attribute : shape.attributes)
+    if (std::find(held.begin(), held.end(), attribute.name) == held.end())
+      report.lost.push_back(format + " cannot hold the attribute \"" + attribute.name + "\".");
+}
+
+std::string counted(std::size_t count, const char* singular, const char* plural) {
+  return std::to_string(count) + " " + (count == 1 ? singular : plural);
+}
+
+}  // namespace sinew::io
