@@ -1,0 +1,110 @@
+#include "engine/io/output_file.h"
+
+#include <fcntl.h>
+#include <stdio.h>  // renameat2
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "engine/geometry/error.h"
+
+namespace sinew::io {
+
+namespace {
+
+/// The errno of a failed call in words.
+std::string reason() {
+  return sinew::quoted(std::strerror(errno));
+}
+
+bool is_special(const std::string& path) {
+  struct stat status;
+  return path == "-" || (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode));
+}
+
+/// Unlike any other of this process or of one that runs now.
+std::string temporary_name(const std::filesystem::path& target) {
+  static std::atomic<unsigned> counter{0};
+  const std::string name =
+      "." + target.filename().string() + "." + std::to_string(getpid()) + "-" + std::to_string(counter++) + ".part";
+  return (target.parent_path() / name).string();
+}
+
+}  // namespace
+
+void refuse_existing(const std::string& path, bool force) {
+  if (is_special(path)) return;
+  struct stat status;
+  if (stat(path.c_str(), &status) != 0) return;
+  if (S_ISDIR(status.st_mode)) throw file_error(path, "the name of a file to write", "a folder");
+  if (!force) throw file_error(path, "the name of a new file", "an existing one (--force replaces it)");
+}
+
+OutputFile::OutputFile(const std::string& path, bool force) : path_(path), target_(path), force_(force) {
+  if (path.empty()) throw file_error("\"\"", "the name of a file to write", "no name");
+  refuse_existing(path, force);
+  if (is_special(path)) {
+    file_ = path == "-" ? dup(STDOUT_FILENO) : open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (file_ < 0) fail("a file that can be written");
+    return;
+  }
+  std::error_code none;
+  if (std::filesystem::is_symlink(path, none)) target_ = std::filesystem::weakly_canonical(path, none).string();
+  struct stat status;
+  const bool exists = stat(target_.c_str(), &status) == 0;
+  temporary_ = temporary_name(target_);
+  file_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file_ < 0) {
+    temporary_.clear();
+    fail("a folder that can be written");
+  }
+  if (exists && fchmod(file_, status.st_mode & 07777) != 0) fail("to keep the mode of the file");
+}
+
+OutputFile::~OutputFile() {
+  if (file_ >= 0) close(file_);
+  if (!temporary_.empty()) unlink(temporary_.c_str());
+}
+
+void OutputFile::fail(const std::string& expected) const {
+  throw file_error(path_, expected, reason());
+}
+
+void OutputFile::write(std::span<const std::byte> bytes) {
+  constexpr std::size_t most = std::size_t{1} << 30;  // of one call
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file_, bytes.data(), std::min(bytes.size(), most));
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail("room for " + std::to_string(bytes.size()) + " more bytes");
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+void OutputFile::commit() {
+  if (temporary_.empty()) {
+    const int result = close(file_);
+    file_ = -1;
+    if (result != 0) fail("to finish writing");
+    return;
+  }
+  const int synced = fsync(file_), closed = close(file_);
+  file_ = -1;
+  if (synced != 0 || closed != 0) fail("to finish writing");
+  int renamed = force_ ? -1 : renameat2(AT_FDCWD, temporary_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE);
+  // Not every file system can refuse to replace; whether the name is free was asked at the beginning.
+  if (renamed != 0 && (force_ || errno == EINVAL)) renamed = rename(temporary_.c_str(), target_.c_str());
+  if (renamed != 0) fail("to give the finished file its name");
+  temporary_.clear();
+  const std::string parent = std::filesystem::path(target_).parent_path().string();
+  const int folder = open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;  // a folder that can be written but not read: the file is there
+  fsync(folder);
+  close(folder);
+}
+
+}  // namespace sinew::io
