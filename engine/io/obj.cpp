@@ -12,7 +12,6 @@ namespace sinew::io {
 
 namespace {
 
-constexpr Index no_normal = std::numeric_limits<Index>::max();
 constexpr std::size_t most = std::numeric_limits<Index>::max() - 1;
 
 struct ObjContent : FileContent {
@@ -163,7 +162,7 @@ class ObjReader {
       const std::size_t first = t.text.find('/');
       const std::size_t second = first == std::string_view::npos ? first : t.text.find('/', first + 1);
       corners_.push_back(read_index(t, t.text.substr(0, first), points_));
-      corner_normals_.push_back(no_normal);
+      corner_normals_.push_back(no_row);
       if (first == std::string_view::npos) continue;
       const std::string_view texture =
           t.text.substr(first + 1, second == std::string_view::npos ? second : second - first - 1);
@@ -219,12 +218,12 @@ class ObjReader {
       // Corners sorted by normal (counting sort), then each point once in the row of a normal.
       std::vector<Index> begin(n + 1, 0), sorted(face_normals_.size());
       for (const Index i : face_normals_)
-        if (i != no_normal) ++begin[i + 1];
+        if (i != no_row) ++begin[i + 1];
       for (std::size_t i = 0; i < n; ++i) begin[i + 1] += begin[i];
       std::vector<Index> at(begin.begin(), begin.end() - 1);
       for (std::size_t corner = 0; corner < face_normals_.size(); ++corner)
-        if (face_normals_[corner] != no_normal) sorted[at[face_normals_[corner]]++] = shape_.faces.points[corner];
-      std::vector<Index> last(shape_.size(), no_normal);
+        if (face_normals_[corner] != no_row) sorted[at[face_normals_[corner]]++] = shape_.faces.points[corner];
+      std::vector<Index> last(shape_.size(), no_row);
       normal.point_offsets.assign(1, 0);
       for (Index i = 0; i < n; ++i) {
         for (Index k = begin[i]; k < begin[i + 1]; ++k)
@@ -298,55 +297,16 @@ std::vector<std::byte> patched(const Shape& shape, const ObjContent& content) {
   return patch.finish();
 }
 
-/// For each point the normal that is its own, no_normal where it has none. Nothing where a point has several.
-std::optional<std::vector<Index>> normal_of_points(const Shape& shape, const Attribute& normal) {
-  std::vector<Index> of(shape.size(), no_normal);
-  for (Index i = 0; i < normal.count(); ++i) {
-    if (normal.per_point()) {
-      of[i] = i;
-      continue;
-    }
-    for (Index k = normal.point_offsets[i]; k < normal.point_offsets[i + 1]; ++k) {
-      if (of[normal.points[k]] != no_normal) return std::nullopt;
-      of[normal.points[k]] = i;
-    }
-  }
-  return of;
-}
-
-/// A colour a point as fractions of 1: three or four components, or the bits 0x00rrggbb of one (PCD).
-void append_color(std::vector<std::byte>& out, const Attribute& color, std::size_t i) {
-  if (color.components == 1) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, color.values.data() + i * color.row_size(), sizeof(bits));
-    for (const int shift : {16, 8, 0}) {
-      append_text(out, " ");
-      append_number(out, ((bits >> shift) & 255) / 255.0, Type::Float32);
-    }
-    return;
-  }
-  const bool bytes = color.type == Type::UInt8;
-  for (int c = 0; c < color.components; ++c) {
-    append_text(out, " ");
-    append_number(out, color.number(i, c) / (bytes ? 255 : 1), bytes ? Type::Float32 : color.type);
-  }
-}
-
-bool holds_color(const Attribute& color) {
-  return color.kind == Kind::Color && color.per_point() &&
-         (color.components == 3 || color.components == 4 || (color.components == 1 && size_of(color.type) == 4));
-}
-
 std::vector<std::byte> generic(const Shape& shape, WriteReport& report) {
   std::vector<std::byte> out;
   out.reserve(shape.size() * 32 + shape.faces.points.size() * 8);
   std::vector<std::string> held;
   const Attribute* color = shape.find("color");
-  if (color && !holds_color(*color)) color = nullptr;
+  if (color && !is_text_color(*color)) color = nullptr;
   if (color) held.push_back("color");
   const Attribute* normal = shape.find("normal");
   std::optional<std::vector<Index>> normal_of;
-  if (normal && normal->components == 3 && normal->kind == Kind::Normal) normal_of = normal_of_points(shape, *normal);
+  if (normal && normal->components == 3 && normal->kind == Kind::Normal) normal_of = row_of_points(shape, *normal);
   if (normal_of) held.push_back("normal");
   report_lost_attributes("OBJ", shape, held, report);
 
@@ -356,7 +316,7 @@ std::vector<std::byte> generic(const Shape& shape, WriteReport& report) {
       append_text(out, " ");
       append_number(out, shape.positions[i][c] + shape.origin[c], shape.position_type);
     }
-    if (color) append_color(out, *color, i);
+    if (color) append_color(out, *color, i, true);
     append_text(out, "\n");
   }
   for (std::size_t i = 0; normal_of && i < normal->count(); ++i) {
@@ -371,7 +331,7 @@ std::vector<std::byte> generic(const Shape& shape, WriteReport& report) {
     append_text(out, "f");
     for (const Index p : shape.faces[f]) {
       append_text(out, " " + std::to_string(p + 1ULL));
-      if (normal_of && (*normal_of)[p] != no_normal) append_text(out, "//" + std::to_string((*normal_of)[p] + 1ULL));
+      if (normal_of && (*normal_of)[p] != no_row) append_text(out, "//" + std::to_string((*normal_of)[p] + 1ULL));
     }
     append_text(out, "\n");
   }

@@ -46,10 +46,11 @@ class TextCursor {
     return text_.substr(begin, at_ - begin);
   }
 
-  /// To the first character of the next line.
+  /// To the first character of the next line; on the last line to its end.
   void next_line() {
     rest();
-    if (at_ < text_.size()) at_ += (text_[at_] == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n') ? 2 : 1;
+    if (at_end()) return;
+    at_ += (text_[at_] == '\r' && at_ + 1 < text_.size() && text_[at_ + 1] == '\n') ? 2 : 1;
     line_begin_ = at_;
     ++line_;
   }

@@ -112,22 +112,70 @@ std::vector<std::byte> TextPatch::finish() {
   return std::move(out_);
 }
 
-Attribute number_attribute(std::string name, std::vector<std::string> fields, Kind kind, Type type,
+Attribute number_attribute(std::string name, std::vector<std::string> field_names, Kind kind, Type type,
                            std::span<const double> values) {
+  const std::size_t fields = field_names.size();
   Attribute attribute;
-  attribute.components = static_cast<int>(fields.size());
+  attribute.components = static_cast<int>(fields);
   attribute.name = std::move(name);
-  attribute.fields = std::move(fields);
+  attribute.fields = std::move(field_names);
   attribute.kind = kind;
   attribute.type = type;
   attribute.values.resize(values.size() * size_of(type));
   if (type == Type::Float32) {
     std::transform(values.begin(), values.end(), attribute.as<float>().begin(),
                    [](double x) { return static_cast<float>(x); });
-  } else {
+  } else if (type == Type::Float64) {
     std::copy(values.begin(), values.end(), attribute.as<double>().begin());
+  } else {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      attribute.set_number(i / fields, static_cast<int>(i % fields), values[i]);
   }
   return attribute;
+}
+
+std::optional<std::vector<Index>> row_of_points(const Shape& shape, const Attribute& attribute) {
+  std::vector<Index> row(shape.size(), no_row);
+  for (Index i = 0; i < attribute.count(); ++i) {
+    if (attribute.per_point()) {
+      row[i] = i;
+      continue;
+    }
+    for (Index k = attribute.point_offsets[i]; k < attribute.point_offsets[i + 1]; ++k) {
+      if (row[attribute.points[k]] != no_row) return std::nullopt;
+      row[attribute.points[k]] = i;
+    }
+  }
+  return row;
+}
+
+bool is_text_color(const Attribute& color) {
+  if (color.kind != Kind::Color || !color.per_point()) return false;
+  if (color.components == 1) return size_of(color.type) == 4;
+  const bool type = color.type == Type::UInt8 || color.type == Type::Float32 || color.type == Type::Float64;
+  return type && (color.components == 3 || color.components == 4);
+}
+
+void append_color(std::vector<std::byte>& out, const Attribute& color, std::size_t i, bool fractions) {
+  const auto append_byte = [&](unsigned x) {
+    append_text(out, " ");
+    append_number(out, fractions ? x / 255.0 : x, Type::Float32);
+  };
+  const std::byte* row = color.values.data() + i * color.row_size();
+  if (color.components == 1) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, row, sizeof(bits));
+    for (const int shift : {16, 8, 0}) append_byte((bits >> shift) & 255);
+    return;
+  }
+  for (int c = 0; c < color.components; ++c) {
+    if (color.type == Type::UInt8) {
+      append_byte(std::to_integer<unsigned>(row[c]));
+    } else {
+      append_text(out, " ");
+      append_number(out, color.number(i, c), color.type);
+    }
+  }
 }
 
 void report_lost_attributes(const std::string& format, const Shape& shape, const std::vector<std::string>& held,

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -71,9 +72,21 @@ class TextPatch {
   std::size_t copied_ = 0;  ///< bytes of from_ that are dealt with
 };
 
-/// An attribute of Float32 or Float64 with these values (row by row).
-Attribute number_attribute(std::string name, std::vector<std::string> fields, Kind kind, Type type,
+/// An attribute with these values (row by row) as `type`.
+Attribute number_attribute(std::string name, std::vector<std::string> field_names, Kind kind, Type type,
                            std::span<const double> values);
+
+inline constexpr Index no_row = 0xffffffff;
+
+/// For each point the row of `attribute` that belongs to it, no_row where none does. Nothing where a point has several.
+std::optional<std::vector<Index>> row_of_points(const Shape& shape, const Attribute& attribute);
+
+/// A colour for each point that can be written as numbers: three or four components, bytes or floating point, or the
+/// bits 0x00rrggbb in one component of four bytes (PCD).
+bool is_text_color(const Attribute& color);
+
+/// " r g b" or " r g b a" of point i: bytes as 0 to 255, or as fractions of 1 where `fractions`.
+void append_color(std::vector<std::byte>& out, const Attribute& color, std::size_t i, bool fractions);
 
 /// "NAME cannot hold the attribute "intensity"." for each attribute whose name is not among `held`.
 void report_lost_attributes(const std::string& format, const Shape& shape, const std::vector<std::string>& held,
