@@ -14,7 +14,9 @@ Lanes load(const double* from) {
   return x;
 }
 
-void store(double* to, Lanes x) { std::memcpy(to, &x, sizeof(x)); }
+void store(double* to, Lanes x) {
+  std::memcpy(to, &x, sizeof(x));
+}
 
 /// One tile of `columns` <= gemm_columns columns; the count is a template argument so that the sums stay in registers.
 template <std::size_t columns>
@@ -36,8 +38,8 @@ void tile(std::size_t k, const double* A, std::size_t a, const double* B, std::s
 
 }  // namespace
 
-void gemm_abt(std::size_t m, std::size_t n, std::size_t k, const double* A, std::size_t a, const double* B, std::size_t b,
-              double* C, std::size_t c) {
+void gemm_abt(std::size_t m, std::size_t n, std::size_t k, const double* A, std::size_t a, const double* B,
+              std::size_t b, double* C, std::size_t c) {
   static constexpr decltype(&tile<1>) tiles[] = {nullptr, tile<1>, tile<2>, tile<3>, tile<4>, tile<5>, tile<6>};
   for (std::size_t j = 0; j < n; j += gemm_columns) {
     const auto multiply = tiles[n - j < gemm_columns ? n - j : gemm_columns];

@@ -11,7 +11,9 @@ namespace sinew {
 
 namespace {
 
-std::size_t round_up(std::size_t n, std::size_t to) { return (n + to - 1) / to * to; }
+std::size_t round_up(std::size_t n, std::size_t to) {
+  return (n + to - 1) / to * to;
+}
 
 using Vector = Eigen::Map<Eigen::VectorXd>;
 using ConstVector = Eigen::Map<const Eigen::VectorXd>;
@@ -96,7 +98,8 @@ void SparseCholesky::gather(const BlockMatrix& H, std::span<const double> dampin
   const auto b = static_cast<Eigen::Index>(block_);
   using Strided = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
   for (std::size_t e = 0; e < targets_.size(); ++e) {
-    Strided to(panels_.data() + targets_[e].at, b, b, Eigen::OuterStride<>(static_cast<Eigen::Index>(targets_[e].stride)));
+    Strided to(panels_.data() + targets_[e].at, b, b,
+               Eigen::OuterStride<>(static_cast<Eigen::Index>(targets_[e].stride)));
     const Eigen::Map<const Eigen::MatrixXd> from(H.at(e), b, b);
     if (targets_[e].transposed)
       to = from.transpose();
@@ -106,12 +109,14 @@ void SparseCholesky::gather(const BlockMatrix& H, std::span<const double> dampin
   if (damping.empty()) return;
   for (Index j = 0; j < H.size(); ++j) {
     const Target& diagonal = targets_[H.offsets[j]];
-    for (std::size_t c = 0; c < block_; ++c) panels_[diagonal.at + c * (diagonal.stride + 1)] += damping[j * block_ + c];
+    for (std::size_t c = 0; c < block_; ++c)
+      panels_[diagonal.at + c * (diagonal.stride + 1)] += damping[j * block_ + c];
   }
 }
 
 /// target -= (rows from.. of source) (rows from..to-1 of source)': what the columns of `source` contribute to it.
-void SparseCholesky::subtract_update(const Supernode& target, const Supernode& source, std::size_t from, std::size_t to) {
+void SparseCholesky::subtract_update(const Supernode& target, const Supernode& source, std::size_t from,
+                                     std::size_t to) {
   const std::size_t m = (source.rows.size() - from) * block_, n = (to - from) * block_, k = source.width * block_;
   const std::size_t stride = round_up(m, gemm_rows);
   if (update_.size() < stride * n) update_.resize(stride * n);
@@ -187,7 +192,8 @@ bool SparseCholesky::factorize(const BlockMatrix& H, std::span<const double> dam
       if (to < source.rows.size()) waiting[supernode_of_[source.rows[to]]].push_back({w.supernode, to});
     }
     if (!factorize_panel(target)) return false;
-    if (target.rows.size() > target.width) waiting[supernode_of_[target.rows[target.width]]].push_back({t, target.width});
+    if (target.rows.size() > target.width)
+      waiting[supernode_of_[target.rows[target.width]]].push_back({t, target.width});
   }
   // A value that is not finite anywhere reaches the pivots below it; a last column alone would not be seen.
   factorized_ = std::all_of(panels_.begin(), panels_.end(), [](double x) { return std::isfinite(x); });
@@ -221,7 +227,8 @@ void SparseCholesky::solve(std::span<double> x) const {
     for (std::size_t c = columns; c-- > 0;) {
       const double* column = panels_.data() + s.panel + c * s.stride;
       const auto length = static_cast<Eigen::Index>(rows - c - 1);
-      work_[c] = (work_[c] - ConstVector(column + c + 1, length).dot(ConstVector(work_.data() + c + 1, length))) / column[c];
+      work_[c] =
+          (work_[c] - ConstVector(column + c + 1, length).dot(ConstVector(work_.data() + c + 1, length))) / column[c];
     }
     std::copy_n(work_.data(), columns, x_.data() + s.first * block_);
   }

@@ -1,7 +1,7 @@
 #pragma once
-/// Sparse Cholesky factorization P H P' = L L' of symmetric positive definite matrices made of equal square blocks: analysed
-/// once for a pattern, factorized often. Left-looking over supernodes (groups of columns of like structure, kept as dense
-/// panels), so that nearly all work is small dense matrix products [Ng and Peyton 1993].
+/// Sparse Cholesky factorization P H P' = L L' of symmetric positive definite matrices made of equal square blocks:
+/// analysed once for a pattern, factorized often. Left-looking over supernodes (groups of columns of like structure,
+/// kept as dense panels), so that nearly all work is small dense matrix products [Ng and Peyton 1993].
 ///
 /// Blocks of 6 or 12 (a graph node), 3 (a shell vertex) or 1 (a tet vertex) share this code. One thread.
 
@@ -14,8 +14,9 @@
 
 namespace sinew {
 
-/// The lower triangle with the diagonal, by block columns: column j has blocks rows[offsets[j]] .. rows[offsets[j+1]-1],
-/// ascending, the first of which is j itself. Block e is at values[e * block * block], column-major.
+/// The lower triangle with the diagonal, by block columns: column j has blocks rows[offsets[j]] ..
+/// rows[offsets[j+1]-1], ascending, the first of which is j itself. Block e is at values[e * block * block],
+/// column-major.
 struct BlockMatrix {
   int block = 1;
   std::vector<Index> offsets{0}, rows;
@@ -38,8 +39,9 @@ class SparseCholesky {
   /// Ordering (the cheaper of minimum degree and nested dissection by flops) and symbolic analysis of H's pattern.
   void analyse(const BlockMatrix& H);
 
-  /// Factorizes H + diag(damping) (damping: size * block, or empty for none), with the pattern that was analysed. False, and
-  /// no factor, where a value is not finite or a pivot is not positive: not positive definite to working precision.
+  /// Factorizes H + diag(damping) (damping: size * block, or empty for none), with the pattern that was analysed.
+  /// False, and no factor, where a value is not finite or a pivot is not positive: not positive definite to working
+  /// precision.
   [[nodiscard]] bool factorize(const BlockMatrix& H, std::span<const double> damping = {});
   bool factorized() const { return factorized_; }
   void forget() { factorized_ = false; }

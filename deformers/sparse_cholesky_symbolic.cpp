@@ -1,9 +1,9 @@
 #include "deformers/sparse_cholesky_symbolic.h"
 
+#include <metis.h>
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 #include <algorithm>
-#include <metis.h>
 #include <numeric>
 
 namespace sinew {
@@ -87,7 +87,9 @@ std::vector<std::vector<Index>> column_structures(const Adjacency& graph, const 
   return rows;
 }
 
-double panel_values(double width, double rows) { return width * rows - 0.5 * width * (width - 1); }
+double panel_values(double width, double rows) {
+  return width * rows - 0.5 * width * (width - 1);
+}
 
 /// Whether a merged panel of `width` columns (scalars) may hold this share of zeros: narrow panels waste more time than
 /// zeros do. Bounds found by timing graphs of 200 to 5,000 nodes.
@@ -165,8 +167,8 @@ SymbolicFactor symbolic_factor(const Adjacency& graph, const std::vector<Index>&
     const bool continues = j > 0 && parent[j - 1] == j && below[j - 1].size() == below[j].size() + 1;
     SymbolicFactor::Group group{j, 1, {j}};
     group.rows.insert(group.rows.end(), below[j].begin(), below[j].end());
-    // Columns of one structure form a group; then groups that end where this one begins are merged into it while they are
-    // its children and few zeros come in.
+    // Columns of one structure form a group; then groups that end where this one begins are merged into it while they
+    // are its children and few zeros come in.
     while (!out.groups.empty()) {
       const SymbolicFactor::Group& last = out.groups.back();
       const bool child = last.rows.size() > last.width && last.rows[last.width] < group.first + group.width &&

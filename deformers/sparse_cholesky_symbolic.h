@@ -1,5 +1,6 @@
 #pragma once
-/// The part of a sparse Cholesky factorization that depends only on the pattern: elimination tree, postorder, supernodes.
+/// The part of a sparse Cholesky factorization that depends only on the pattern: elimination tree, postorder,
+/// supernodes.
 
 #include <vector>
 

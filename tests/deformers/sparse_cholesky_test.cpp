@@ -59,7 +59,8 @@ TEST(SmallGemm, EqualsTheProductForEverySize) {
   for (const int m : {1, 5, 16, 17, 30})
     for (const int n : {1, 2, 3, 4, 5, 6, 7, 12, 13})
       for (const int k : {1, 6, 31}) {
-        Eigen::MatrixXd A = Eigen::MatrixXd::Random(m + static_cast<int>(gemm_rows), k), B = Eigen::MatrixXd::Random(n, k);
+        Eigen::MatrixXd A = Eigen::MatrixXd::Random(m + static_cast<int>(gemm_rows), k),
+                        B = Eigen::MatrixXd::Random(n, k);
         Eigen::MatrixXd C = Eigen::MatrixXd::Zero(m + static_cast<int>(gemm_rows), n);
         gemm_abt(m, n, k, A.data(), A.rows(), B.data(), n, C.data(), C.rows());
         EXPECT_LT((C.topRows(m) - A.topRows(m) * B.transpose()).norm(), 1e-13 * k * m) << m << ' ' << n << ' ' << k;

@@ -1,0 +1,262 @@
+#include "deformers/graph_energy.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+namespace sinew {
+
+namespace {
+
+constexpr Index none = ~Index{0};
+
+/// Columns a <= b of the six conditions c_a . c_b = delta_ab, in the order of eq. 5.
+constexpr int condition[6][2] = {{0, 1}, {0, 2}, {1, 2}, {0, 0}, {1, 1}, {2, 2}};
+
+double condition_residual(const Mat3& R, int n) {
+  const auto [a, b] = condition[n];
+  return R.col(a).dot(R.col(b)) - (a == b ? 1 : 0);
+}
+
+/// Derivative of condition n by the columns of R.
+Eigen::Matrix<double, 9, 1> condition_gradient(const Mat3& R, int n) {
+  const auto [a, b] = condition[n];
+  Eigen::Matrix<double, 9, 1> J = Eigen::Matrix<double, 9, 1>::Zero();
+  J.segment<3>(3 * a) += R.col(b);
+  J.segment<3>(3 * b) += R.col(a);
+  return J;
+}
+
+Mat3 cross_matrix(const Vec3& a) {
+  Mat3 X;
+  X << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+  return X;
+}
+
+}  // namespace
+
+Mat3 nearest_rotation(const Mat3& M) {
+  const Eigen::JacobiSVD<Mat3> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Vec3 sign(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
+  return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+}
+
+Mat3 rotation_of(const Vec3& w) {
+  const double angle = w.norm();
+  // sin(a)/a by the quaternion, finite at zero; normalising leaves no drift over many steps.
+  const double half = angle < 1e-8 ? 0.5 : std::sin(0.5 * angle) / angle;
+  return Eigen::Quaterniond(std::cos(0.5 * angle), half * w.x(), half * w.y(), half * w.z())
+      .normalized()
+      .toRotationMatrix();
+}
+
+void GraphEnergy::add_row(std::initializer_list<Entry> entries) {
+  for (const Entry& e : entries)
+    if (unknown_of_[e.node] != none) entries_.push_back(e);
+  row_offsets_.push_back(entries_.size());
+}
+
+void GraphEnergy::build(std::span<const Vec3> nodes, std::span<const std::pair<Index, Index>> edges,
+                        const std::vector<bool>& free, std::span<const GraphHandle> handles,
+                        const GraphWeights& weights) {
+  weights_ = weights;
+  free_nodes_.clear();
+  unknown_of_.assign(nodes.size(), none);
+  for (Index j = 0; j < nodes.size(); ++j)
+    if (free[j]) {
+      unknown_of_[j] = static_cast<Index>(free_nodes_.size());
+      free_nodes_.push_back(j);
+    }
+
+  row_offsets_.assign(1, 0);
+  entries_.clear();
+  const double reg = std::sqrt(weights.regularization), con = std::sqrt(weights.constraint);
+  const auto add_edge = [&](Index j, Index k) {
+    const Vec3 d = reg * (nodes[k] - nodes[j]);
+    add_row({{j, {d.x(), d.y(), d.z(), reg}}, {k, {0, 0, 0, -reg}}});
+  };
+  for (const auto& [j, k] : edges) {
+    if (!free[j] && !free[k]) continue;  // both rest: the row is zero
+    add_edge(j, k);
+    add_edge(k, j);
+  }
+  regularization_rows_ = row_offsets_.size() - 1;
+
+  handle_points_.clear();
+  for (const GraphHandle& handle : handles) {
+    for (std::size_t i = 0; i < handle.nodes.size(); ++i) {
+      const Index j = handle.nodes[i];
+      if (unknown_of_[j] == none) continue;
+      const Vec3 d = con * handle.weights[i] * (handle.v - nodes[j]);
+      entries_.push_back({j, {d.x(), d.y(), d.z(), con * handle.weights[i]}});
+    }
+    row_offsets_.push_back(entries_.size());
+    handle_points_.push_back(handle.v);
+  }
+  rhs_.assign(handles.size(), Vec3::Zero());
+  build_A();
+}
+
+void GraphEnergy::build_A() {
+  std::vector<std::pair<Index, Index>> pairs;
+  for (std::size_t row = 0; row + 1 < row_offsets_.size(); ++row)
+    for (std::size_t a = row_offsets_[row]; a < row_offsets_[row + 1]; ++a)
+      for (std::size_t b = a + 1; b < row_offsets_[row + 1]; ++b)
+        pairs.emplace_back(unknown_of_[entries_[a].node], unknown_of_[entries_[b].node]);
+  A_ = block_pattern(4, static_cast<Index>(free_nodes_.size()), pairs);
+
+  for (std::size_t row = 0; row + 1 < row_offsets_.size(); ++row)
+    for (std::size_t a = row_offsets_[row]; a < row_offsets_[row + 1]; ++a)
+      for (std::size_t b = row_offsets_[row]; b < row_offsets_[row + 1]; ++b) {
+        const Index i = unknown_of_[entries_[a].node], j = unknown_of_[entries_[b].node];
+        if (i < j) continue;
+        const auto first = A_.rows.begin() + static_cast<std::ptrdiff_t>(A_.offsets[j]);
+        const auto last = A_.rows.begin() + static_cast<std::ptrdiff_t>(A_.offsets[j + 1]);
+        const auto e = static_cast<std::size_t>(std::lower_bound(first, last, i) - A_.rows.begin());
+        Eigen::Map<Eigen::Matrix4d>(A_.at(e)) += entries_[a].coefficients * entries_[b].coefficients.transpose();
+      }
+}
+
+void GraphEnergy::set_targets(std::span<const Vec3> targets) {
+  CHECK(targets.size() == handle_points_.size(), targets.size(), handle_points_.size());
+  for (std::size_t l = 0; l < targets.size(); ++l)
+    rhs_[l] = std::sqrt(weights_.constraint) * (targets[l] - handle_points_[l]);
+}
+
+Vec3 GraphEnergy::residual(const GraphState& x, std::size_t row) const {
+  Vec3 r = row < regularization_rows_ ? Vec3(Vec3::Zero()) : Vec3(-rhs_[row - regularization_rows_]);
+  for (std::size_t e = row_offsets_[row]; e < row_offsets_[row + 1]; ++e) {
+    const Entry& entry = entries_[e];
+    const Vec3 beta = entry.coefficients.head<3>();
+    r += x.R[entry.node] * beta - beta + entry.coefficients[3] * x.t[entry.node];
+  }
+  return r;
+}
+
+GraphEnergy::Terms GraphEnergy::energy(const GraphState& x, bool rigid) const {
+  Terms out;
+  for (std::size_t row = 0; row + 1 < row_offsets_.size(); ++row)
+    (row < regularization_rows_ ? out.regularization : out.constraint) += residual(x, row).squaredNorm();
+  if (!rigid)
+    for (const Index j : free_nodes_)
+      for (int n = 0; n < 6; ++n) {
+        const double f = condition_residual(x.R[j], n);
+        out.rotation += weights_.rotation * f * f;
+      }
+  return out;
+}
+
+std::vector<GraphEnergy::Mat34> GraphEnergy::linear_gradient(const GraphState& x) const {
+  std::vector<Mat34> G(free_nodes_.size(), Mat34::Zero());
+  for (std::size_t row = 0; row + 1 < row_offsets_.size(); ++row) {
+    const Vec3 r = residual(x, row);
+    for (std::size_t e = row_offsets_[row]; e < row_offsets_[row + 1]; ++e)
+      G[unknown_of_[entries_[e].node]] += r * entries_[e].coefficients.transpose();
+  }
+  return G;
+}
+
+void GraphEnergy::gradient_rigid(const GraphState& x, std::span<double> out) const {
+  CHECK(out.size() == 6 * free_count(), out.size());
+  const std::vector<Mat34> G = linear_gradient(x);
+  for (std::size_t i = 0; i < G.size(); ++i) {
+    const Mat34 K = x.R[free_nodes_[i]].transpose() * G[i];  // sum of (R'r) [beta, b]
+    Eigen::Map<Eigen::Matrix<double, 6, 1>> g(out.data() + 6 * i);
+    g << K(2, 1) - K(1, 2), K(0, 2) - K(2, 0), K(1, 0) - K(0, 1), K.col(3);  // beta x R'r, b R'r
+  }
+}
+
+void GraphEnergy::gradient_affine(const GraphState& x, const std::vector<Mat3>& Q, std::span<double> out) const {
+  CHECK(out.size() == 12 * free_count(), out.size());
+  const std::vector<Mat34> G = linear_gradient(x);
+  for (std::size_t i = 0; i < G.size(); ++i) {
+    const Mat3& frame = Q[free_nodes_[i]];
+    Eigen::Map<Mat34> g(out.data() + 12 * i);
+    g = frame.transpose() * G[i];
+    const Mat3 S = frame.transpose() * x.R[free_nodes_[i]];
+    Eigen::Map<Eigen::Matrix<double, 9, 1>> rotation(out.data() + 12 * i);
+    for (int n = 0; n < 6; ++n) rotation += weights_.rotation * condition_residual(S, n) * condition_gradient(S, n);
+  }
+}
+
+BlockMatrix GraphEnergy::hessian_pattern(int block) const {
+  BlockMatrix H;
+  H.block = block;
+  H.offsets = A_.offsets;
+  H.rows = A_.rows;
+  H.values.assign(H.rows.size() * H.block_values(), 0.0);
+  return H;
+}
+
+/// With J_i = R_i [-[beta_i]x, b_i] and Q = R_i' R_j, using Q [a]x = [Q a]x Q and [a]x [c]x = c a' - (a.c) I:
+///   J_i' J_j = [ (tr(N) I - N') Q    [m]x Q ]      M = sum beta_i beta_j', m = sum beta_i b_j, N = M Q',
+///              [ -Q [m*]x            a Q    ]      m* = sum b_i beta_j, a = sum b_i b_j, all of them entries of A.
+void GraphEnergy::hessian_rigid(const GraphState& x, BlockMatrix& H) const {
+  for (Index j = 0; j < A_.size(); ++j)
+    for (Index e = A_.offsets[j]; e < A_.offsets[j + 1]; ++e) {
+      const Mat3 Q = x.R[free_nodes_[A_.rows[e]]].transpose() * x.R[free_nodes_[j]];
+      const Eigen::Map<const Eigen::Matrix4d> a(A_.at(e));
+      const Mat3 N = a.topLeftCorner<3, 3>() * Q.transpose();
+      Eigen::Map<Eigen::Matrix<double, 6, 6>> h(H.at(e));
+      h.topLeftCorner<3, 3>() = (N.trace() * Mat3::Identity() - N.transpose()) * Q;
+      h.topRightCorner<3, 3>() = cross_matrix(a.topRightCorner<3, 1>()) * Q;
+      h.bottomLeftCorner<3, 3>() = -Q * cross_matrix(a.bottomLeftCorner<1, 3>().transpose());
+      h.bottomRightCorner<3, 3>() = a(3, 3) * Q;
+    }
+}
+
+void GraphEnergy::hessian_affine(const GraphState& x, const std::vector<Mat3>& Q, BlockMatrix& H) const {
+  for (Index j = 0; j < A_.size(); ++j)
+    for (Index e = A_.offsets[j]; e < A_.offsets[j + 1]; ++e) {
+      const Mat3 q = Q[free_nodes_[A_.rows[e]]].transpose() * Q[free_nodes_[j]];
+      const Eigen::Map<const Eigen::Matrix4d> a(A_.at(e));
+      Eigen::Map<Eigen::Matrix<double, 12, 12>> h(H.at(e));
+      for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) h.block<3, 3>(3 * r, 3 * c) = a(r, c) * q;
+    }
+  for (Index i = 0; i < A_.size(); ++i) {
+    const Mat3 S = Q[free_nodes_[i]].transpose() * x.R[free_nodes_[i]];
+    Eigen::Map<Eigen::Matrix<double, 12, 12>> h(H.at(A_.offsets[i]));
+    for (int n = 0; n < 6; ++n) {
+      const Eigen::Matrix<double, 9, 1> J = condition_gradient(S, n);
+      h.topLeftCorner<9, 9>() += weights_.rotation * J * J.transpose();
+    }
+  }
+}
+
+GraphState GraphEnergy::step_rigid(const GraphState& x, std::span<const double> step, double scale) const {
+  GraphState out = x;
+  for (std::size_t i = 0; i < free_nodes_.size(); ++i) {
+    const Index j = free_nodes_[i];
+    const Eigen::Map<const Vec3> omega(step.data() + 6 * i), tau(step.data() + 6 * i + 3);
+    out.t[j] += scale * (x.R[j] * tau);
+    out.R[j] = x.R[j] * rotation_of(scale * omega);
+  }
+  return out;
+}
+
+GraphState GraphEnergy::step_affine(const GraphState& x, const std::vector<Mat3>& Q, std::span<const double> step,
+                                    double scale) const {
+  GraphState out = x;
+  for (std::size_t i = 0; i < free_nodes_.size(); ++i) {
+    const Index j = free_nodes_[i];
+    const Eigen::Map<const Mat3> Delta(step.data() + 12 * i);
+    const Eigen::Map<const Vec3> tau(step.data() + 12 * i + 9);
+    out.R[j] += scale * (Q[j] * Delta);
+    out.t[j] += scale * (Q[j] * tau);
+  }
+  return out;
+}
+
+std::pair<double, double> GraphEnergy::handle_error(const GraphState& x) const {
+  double sum = 0, largest = 0;
+  for (std::size_t l = 0; l < rhs_.size(); ++l) {
+    const double square = residual(x, regularization_rows_ + l).squaredNorm() / weights_.constraint;
+    sum += square;
+    largest = std::max(largest, square);
+  }
+  return {rhs_.empty() ? 0 : std::sqrt(sum / static_cast<double>(rhs_.size())), std::sqrt(largest)};
+}
+
+}  // namespace sinew

@@ -1,0 +1,119 @@
+#pragma once
+/// The energy of a deformation graph and its derivatives [Sumner, Schmid, Pauly 2007, eq. 5-9], in normalised
+/// coordinates (bounding-box diagonal 1: E_rot has no unit and the other terms are squared lengths, so the weights need
+/// a fixed length).
+///
+///   E = w_rot sum_j Rot(R_j)                                                              eq. 5, 6
+///     + w_reg sum_j sum_{k in N(j)} |R_j (g_k - g_j) + g_j + t_j - (g_k + t_k)|^2         eq. 7, alpha_jk = 1
+///     + w_con sum_l |v'_l - q_l|^2,   v' by eq. 2                                         eq. 8
+///
+///   m       nodes, at g_j; R_j (3x3) and t_j their maps: p -> R_j (p - g_j) + g_j + t_j   eq. 1
+///   N(j)    nodes that share an edge with j, each edge counted from both ends
+///   v_l,q_l handle point l and its target
+///
+/// The terms of eq. 7 and 8 are rows r = sum_j (R_j - I) beta_j + b_j t_j - rhs, the same for x, y and z. Hence
+/// J'J = A (x) I3 + 9x9 blocks of E_rot, where A = sum_rows (beta, b)(beta, b)' is 4m-by-4m and does not change while
+/// handles are dragged. A step is taken in each node's own frame Q_j, a rotation near R_j:
+///
+///   rigid  (6 a node):  R_j <- R_j exp(omega_j), t_j <- t_j + R_j tau_j          E_rot is zero where R_j are rotations
+///   affine (12 a node): R_j <- R_j + Q_j Delta_j, t_j <- t_j + Q_j tau_j         the paper's unknowns, rotated
+///
+/// so that a Hessian depends on relative rotations Q_i' Q_j only, and an old factor stays good while parts turn as a
+/// whole.
+
+#include <span>
+#include <vector>
+
+#include "deformers/sparse_cholesky.h"
+
+namespace sinew {
+
+struct GraphWeights {
+  double rotation = 1, regularization = 10, constraint = 100;  ///< w_rot, w_reg, w_con: the paper's
+};
+
+/// x: R_j and t_j of all m nodes. Fixed nodes have R = I, t = 0.
+struct GraphState {
+  std::vector<Mat3> R;
+  std::vector<Vec3> t;
+
+  static GraphState rest(std::size_t nodes) {
+    return {std::vector<Mat3>(nodes, Mat3::Identity()), std::vector<Vec3>(nodes, Vec3::Zero())};
+  }
+};
+
+/// A point v with its influences, that is to be at a target (normalised coordinates).
+struct GraphHandle {
+  Vec3 v = Vec3::Zero();
+  std::vector<Index> nodes;
+  std::vector<double> weights;
+};
+
+class GraphEnergy {
+ public:
+  /// Rows and A for these nodes, edges and handle points. Nodes that are not free keep the identity: their unknowns are
+  /// dropped [section 4, fixed constraints].
+  void build(std::span<const Vec3> nodes, std::span<const std::pair<Index, Index>> edges, const std::vector<bool>& free,
+             std::span<const GraphHandle> handles, const GraphWeights& weights);
+
+  /// Where the handle points are to be: q_l, in the order of the handles.
+  void set_targets(std::span<const Vec3> targets);
+
+  std::size_t free_count() const { return free_nodes_.size(); }
+  std::span<const Index> free_nodes() const { return free_nodes_; }  ///< node of each unknown block, ascending
+
+  struct Terms {
+    double rotation = 0, regularization = 0, constraint = 0;  ///< weighted
+    double total() const { return rotation + regularization + constraint; }
+  };
+  /// With the rotation term, unless `rigid` (then R_j are rotations and it is zero but for rounding).
+  Terms energy(const GraphState& x, bool rigid) const;
+
+  /// J'f in the frames Q (half the gradient): 6 or 12 values for each free node, [omega, tau] or [Delta by columns,
+  /// tau].
+  void gradient_rigid(const GraphState& x, std::span<double> out) const;
+  void gradient_affine(const GraphState& x, const std::vector<Mat3>& Q, std::span<double> out) const;
+
+  /// J'J in the frames Q. Pattern: hessian_pattern(6 or 12).
+  BlockMatrix hessian_pattern(int block) const;
+  void hessian_rigid(const GraphState& x, BlockMatrix& H) const;
+  void hessian_affine(const GraphState& x, const std::vector<Mat3>& Q, BlockMatrix& H) const;
+
+  /// x + scale * step.
+  GraphState step_rigid(const GraphState& x, std::span<const double> step, double scale) const;
+  GraphState step_affine(const GraphState& x, const std::vector<Mat3>& Q, std::span<const double> step,
+                         double scale) const;
+
+  /// Distances of handle points from their targets (normalised): rms and largest; zero without handles.
+  std::pair<double, double> handle_error(const GraphState& x) const;
+
+ private:
+  using Mat34 = Eigen::Matrix<double, 3, 4>;
+  /// One node of a row: node (all m) and [beta, b], times the square root of the term's weight.
+  struct Entry {
+    Index node;
+    Eigen::Vector4d coefficients;
+  };
+
+  void add_row(std::initializer_list<Entry> entries);
+  void build_A();
+  /// sum_rows r [beta, b] of each free node, for both linear terms.
+  std::vector<Mat34> linear_gradient(const GraphState& x) const;
+  Vec3 residual(const GraphState& x, std::size_t row) const;
+
+  GraphWeights weights_;
+  std::vector<Index> free_nodes_;
+  std::vector<Index> unknown_of_;         ///< of each node, or none
+  std::vector<std::size_t> row_offsets_;  ///< rows of eq. 7, then of eq. 8
+  std::vector<Entry> entries_;
+  std::vector<Vec3> handle_points_, rhs_;  ///< v_l; sqrt(w_con) (q_l - v_l)
+  std::size_t regularization_rows_ = 0;
+  BlockMatrix A_;
+};
+
+/// The rotation nearest to M (polar decomposition, determinant +1).
+Mat3 nearest_rotation(const Mat3& M);
+/// exp of the cross-product matrix of w, an exact rotation to rounding.
+Mat3 rotation_of(const Vec3& w);
+
+}  // namespace sinew

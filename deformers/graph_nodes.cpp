@@ -1,0 +1,144 @@
+#include "deformers/graph_nodes.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+
+#include "deformers/random.h"
+#include "engine/geometry/bounds.h"
+#include "engine/geometry/nearest.h"
+#include "engine/geometry/topology.h"
+
+namespace sinew {
+
+namespace {
+
+/// Enough that the removal radius, not the density of the candidates, shapes the result.
+std::size_t candidates_for(std::size_t count) {
+  return std::max<std::size_t>(20000, 100 * count);
+}
+
+/// Random points on the faces, uniform by area; none where all faces are degenerate.
+std::vector<Vec3> points_on_faces(const Shape& shape, std::size_t count, std::uint64_t seed) {
+  const std::vector<Index> triangles = triangles_of(shape.faces);
+  std::vector<double> area_before{0};
+  for (std::size_t t = 0; t < triangles.size(); t += 3) {
+    const Vec3& a = shape.positions[triangles[t]];
+    const double area = (shape.positions[triangles[t + 1]] - a).cross(shape.positions[triangles[t + 2]] - a).norm();
+    area_before.push_back(area_before.back() + (std::isfinite(area) ? area : 0));
+  }
+  std::vector<Vec3> out;
+  if (!(area_before.back() > 0)) return out;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double at = random_unit(seed, 3 * i) * area_before.back();
+    const auto above = std::upper_bound(area_before.begin(), area_before.end(), at);
+    const auto t = static_cast<std::size_t>(above - area_before.begin() - 1) * 3;
+    if (t >= triangles.size()) continue;
+    const double u = std::sqrt(random_unit(seed, 3 * i + 1)), v = random_unit(seed, 3 * i + 2);
+    out.push_back((1 - u) * shape.positions[triangles[t]] + u * (1 - v) * shape.positions[triangles[t + 1]] +
+                  u * v * shape.positions[triangles[t + 2]]);
+  }
+  return out;
+}
+
+/// Points in random order, that the nodes are chosen from, with the bounding-box diagonal at 1.
+std::vector<Vec3> candidates(const Shape& shape, std::size_t count, std::uint64_t seed, const Normalization& unit) {
+  const std::size_t wanted = candidates_for(count);
+  std::vector<Vec3> points;
+  for (const Vec3& p : shape.positions)
+    if (p.allFinite()) points.push_back(p);
+  if (points.size() < wanted && !shape.faces.empty()) {
+    const std::vector<Vec3> more = points_on_faces(shape, wanted - points.size(), seed);
+    points.insert(points.end(), more.begin(), more.end());
+  }
+  std::vector<std::pair<std::uint64_t, std::size_t>> order(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) order[i] = {random_bits(seed + 1, i), i};
+  std::sort(order.begin(), order.end());
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < std::min(order.size(), wanted); ++i) out.push_back(unit.apply(points[order[i].second]));
+  return out;
+}
+
+/// A hash grid of cells as wide as the radius: all points within it lie in the 27 cells around.
+class Grid {
+ public:
+  explicit Grid(double cell) : cell_(cell) {}
+
+  bool has_near(const std::vector<Vec3>& points, const Vec3& p) const {
+    for (int x = -1; x <= 1; ++x)
+      for (int y = -1; y <= 1; ++y)
+        for (int z = -1; z <= 1; ++z) {
+          const auto found = cells_.find(key(p + cell_ * Vec3(x, y, z)));
+          if (found == cells_.end()) continue;
+          for (const std::size_t i : found->second)
+            if ((points[i] - p).squaredNorm() <= cell_ * cell_) return true;
+        }
+    return false;
+  }
+  void add(const Vec3& p, std::size_t i) { cells_[key(p)].push_back(i); }
+
+ private:
+  std::uint64_t key(const Vec3& p) const {
+    std::uint64_t k = 0;
+    for (int c = 0; c < 3; ++c)
+      k = k << 21 | (static_cast<std::uint64_t>(std::floor(p[c] / cell_) + 0x80000) & 0x1fffff);
+    return k;
+  }
+  double cell_;
+  std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
+};
+
+/// Keeps each point that has no earlier kept one within `radius`: the same as removing around kept ones, in the same
+/// order.
+std::vector<Vec3> keep_apart(const std::vector<Vec3>& points, double radius) {
+  Grid grid(radius);
+  std::vector<Vec3> kept;
+  for (const Vec3& p : points) {
+    if (grid.has_near(kept, p)) continue;
+    grid.add(p, kept.size());
+    kept.push_back(p);
+  }
+  return kept;
+}
+
+/// Removes nodes, always one of the closest pair, until `count` are left.
+void thin(std::vector<Vec3>& nodes, std::size_t count) {
+  while (nodes.size() > count) {
+    const NearestTree tree(nodes);
+    std::vector<std::uint32_t> index(nodes.size() * 2);
+    std::vector<double> distance(nodes.size() * 2);
+    tree.nearest(nodes, 2, index, distance);
+    std::size_t closest = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      if (distance[2 * i + 1] < distance[2 * closest + 1]) closest = i;
+    nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(closest));
+  }
+}
+
+}  // namespace
+
+std::vector<Vec3> sample_nodes(const Shape& shape, std::size_t count, std::uint64_t seed) {
+  const Normalization unit = normalization_of(bounds_of(shape.positions));
+  const std::vector<Vec3> points = candidates(shape, count, seed, unit);
+  if (points.empty() || count == 0) return {};
+
+  double low = 1e-6, high = 1;  // radii that keep at least `count`, and fewer
+  std::vector<Vec3> nodes = keep_apart(points, low);
+  for (int step = 0; step < 40 && nodes.size() > count && high - low > 1e-4 * low; ++step) {
+    const double middle = std::sqrt(low * high);
+    std::vector<Vec3> kept = keep_apart(points, middle);
+    if (kept.size() >= count) {
+      low = middle;
+      nodes = std::move(kept);
+    } else {
+      high = middle;
+    }
+  }
+  thin(nodes, count);
+  for (Vec3& node : nodes) node = unit.undo(node);
+  return nodes;
+}
+
+}  // namespace sinew

@@ -1,0 +1,89 @@
+#include "deformers/graph_weights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+#include "engine/geometry/parallel.h"
+
+namespace sinew {
+
+namespace {
+
+constexpr std::size_t block = 65536;
+
+/// Eq. 4 for one point with its k + 1 nearest nodes; writes k weights that sum to one.
+void weights_of(const double* distance, int k, double* w) {
+  const double d_max = distance[k];
+  double sum = 0;
+  for (int i = 0; i < k; ++i) {
+    const double s = d_max > 0 ? 1 - distance[i] / d_max : 0;
+    w[i] = s * s;
+    sum += w[i];
+  }
+  // Equidistant up to rounding: differences of 1e-6 of the distance say nothing about which node is nearer.
+  for (int i = 0; i < k; ++i) w[i] = sum > 1e-12 ? w[i] / sum : 1.0 / k;
+}
+
+}  // namespace
+
+SkinWeights node_weights(const NearestTree& nodes, int k, std::span<const Eigen::Vector3d> points,
+                         const std::function<bool(double)>& progress) {
+  CHECK(k >= 1, k);
+  SkinWeights out;
+  const auto m = static_cast<int>(nodes.size());
+  if (m == 0) {
+    out.offsets.assign(points.size() + 1, 0);
+    return out;
+  }
+  k = std::max(1, std::min(k, m - 1));
+  const auto width = static_cast<std::size_t>(k) + 1;
+  out.offsets.reserve(points.size() + 1);
+  out.maps.reserve(points.size() * static_cast<std::size_t>(k));
+  out.weights.reserve(points.size() * static_cast<std::size_t>(k));
+  std::vector<std::uint32_t> index(block * width);
+  std::vector<double> distance(block * width), w(width);
+  for (std::size_t first = 0; first < points.size(); first += block) {
+    if (progress && !progress(static_cast<double>(first) / static_cast<double>(points.size()))) return {};
+    const std::size_t count = std::min(block, points.size() - first);
+    nodes.nearest(points.subspan(first, count), static_cast<int>(width), {index.data(), count * width},
+                  {distance.data(), count * width});
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t* near = &index[i * width];
+      if (near[0] != NearestTree::none) {
+        if (m == 1)
+          w[0] = 1;
+        else
+          weights_of(&distance[i * width], k, w.data());
+        for (int n = 0; n < k; ++n)
+          if (w[static_cast<std::size_t>(n)] > 0) {
+            out.maps.push_back(near[n]);
+            out.weights.push_back(static_cast<float>(w[static_cast<std::size_t>(n)]));
+          }
+      }
+      out.offsets.push_back(out.maps.size());
+    }
+  }
+  return out;
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> influence_edges(const SkinWeights& weights, std::size_t nodes) {
+  // A bit a pair while that is small, a hash set otherwise: most points repeat the pairs of their neighbours.
+  constexpr std::size_t dense_limit = 16384;
+  std::vector<bool> seen(nodes <= dense_limit ? nodes * nodes : 0, false);
+  std::unordered_set<std::uint64_t> sparse;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    for (std::uint64_t a = weights.offsets[i]; a < weights.offsets[i + 1]; ++a)
+      for (std::uint64_t b = a + 1; b < weights.offsets[i + 1]; ++b) {
+        const auto [low, high] = std::minmax(weights.maps[a], weights.maps[b]);
+        const std::uint64_t key = low * static_cast<std::uint64_t>(nodes) + high;
+        if (seen.empty() ? !sparse.insert(key).second : static_cast<bool>(seen[key])) continue;
+        if (!seen.empty()) seen[key] = true;
+        edges.emplace_back(low, high);
+      }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+}  // namespace sinew

@@ -1,0 +1,24 @@
+#pragma once
+/// Influence of the nodes on points, and the edges that follow from it [Sumner et al. 2007, section 3, eq. 4].
+
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "engine/geometry/nearest.h"
+#include "engine/geometry/skin_weights.h"
+
+namespace sinew {
+
+/// w_j(v) = (1 - |v - g_j| / d_max)^2 over the k nearest nodes, divided by their sum; d_max is the distance to the
+/// (k+1)-th. Where all k + 1 are equally far (the formula gives 0/0), the k share equally. With k nodes or fewer, k is
+/// one less than their number (one node: weight 1). A point that is not finite has an empty row. Rows list nodes in
+/// order of distance; weights of zero are left out. `progress` (0..1) may return false: the result is then empty.
+SkinWeights node_weights(const NearestTree& nodes, int k, std::span<const Eigen::Vector3d> points,
+                         const std::function<bool(double)>& progress = {});
+
+/// An edge (low, high), ascending, between any two nodes that influence one common point.
+std::vector<std::pair<std::uint32_t, std::uint32_t>> influence_edges(const SkinWeights& weights, std::size_t nodes);
+
+}  // namespace sinew
