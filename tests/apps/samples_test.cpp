@@ -1,0 +1,191 @@
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "apps/samples/dense.h"
+#include "apps/samples/edits.h"
+#include "apps/samples/meshes.h"
+#include "apps/samples/scanner.h"
+#include "engine/geometry/parallel.h"
+#include "engine/geometry/topology.h"
+#include "engine/io/io.h"
+
+namespace sinew::samples {
+
+namespace {
+
+/// FNV-1a.
+std::uint64_t hash_of(std::span<const std::byte> bytes, std::uint64_t hash = 0xcbf29ce484222325u) {
+  for (const std::byte byte : bytes) hash = (hash ^ static_cast<std::uint64_t>(byte)) * 0x100000001b3u;
+  return hash;
+}
+
+std::uint64_t hash_of(const Shape& shape) {
+  std::uint64_t hash = hash_of(std::as_bytes(std::span(shape.positions)));
+  for (const Attribute& attribute : shape.attributes) hash = hash_of(attribute.values, hash);
+  return hash_of(std::as_bytes(std::span(shape.faces.points)), hash);
+}
+
+bool all_finite(const Shape& shape) {
+  for (const Vec3& p : shape.positions)
+    if (!p.allFinite()) return false;
+  for (const Attribute& attribute : shape.attributes)
+    for (std::size_t i = 0; i < attribute.count(); ++i)
+      for (int c = 0; c < attribute.components; ++c)
+        if (!std::isfinite(attribute.number(i, c))) return false;
+  return true;
+}
+
+/// Six times the volume that closed triangles enclose.
+double volume6(const Shape& shape) {
+  double sum = 0;
+  for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+    const auto c = shape.faces[f];
+    sum += shape.positions[c[0]].cross(shape.positions[c[1]]).dot(shape.positions[c[2]]);
+  }
+  return sum;
+}
+
+bool in_box(const nlohmann::json& selection, const Vec3& p) {
+  const auto& box = selection.at("box");
+  for (int c = 0; c < 3; ++c)
+    if (p[c] < box[0][c].get<double>() || p[c] > box[1][c].get<double>()) return false;
+  return true;
+}
+
+std::size_t count_in(const nlohmann::json& selection, const Shape& shape) {
+  return static_cast<std::size_t>(std::count_if(shape.positions.begin(), shape.positions.end(),
+                                                [&](const Vec3& p) { return in_box(selection, p); }));
+}
+
+}  // namespace
+
+TEST(Samples, AnimalHasAsManyPointsAsAskedFor) {
+  for (const std::size_t count : {1000u, 10'002u, 79'226u, 85'792u}) EXPECT_EQ(sample_animal(count).size(), count);
+}
+
+TEST(Samples, AnimalIsTheSameForAnyNumberOfThreads) {
+  set_thread_count(1);
+  const Shape one = sample_animal(20'000);
+  set_thread_count(3);
+  EXPECT_EQ(hash_of(sample_animal(20'000)), hash_of(one));
+  EXPECT_NE(hash_of(sample_animal(20'000, 2)), hash_of(one));
+}
+
+TEST(Samples, AnimalStandsAndLooksLikeAScan) {
+  const Shape shape = sample_animal(79'000);
+  EXPECT_TRUE(all_finite(shape));
+  EXPECT_STREQ(representation(shape), "point cloud");
+  EXPECT_GT(connected_components(shape).count, 150u);
+
+  ASSERT_EQ(shape.attributes.size(), 4u);
+  EXPECT_EQ(shape.find("normal")->kind, Kind::Normal);
+  EXPECT_EQ(shape.find("scan")->kind, Kind::Id);
+  const Attribute &normal = *shape.find("normal"), &scan = *shape.find("scan"), &intensity = *shape.find("intensity"),
+                  &confidence = *shape.find("confidence");
+  double highest = 0, last_scan = 0;
+  std::size_t below = 0;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    highest = std::max(highest, shape.positions[i].y());
+    below += shape.positions[i].y() < -0.005;
+    const Vec3 n(normal.number(i, 0), normal.number(i, 1), normal.number(i, 2));
+    ASSERT_NEAR(n.norm(), 1, 1e-5);
+    ASSERT_GE(scan.number(i, 0), last_scan) << "scans follow each other";
+    last_scan = scan.number(i, 0);
+    ASSERT_TRUE(intensity.number(i, 0) >= 0 && intensity.number(i, 0) <= 1);
+    ASSERT_TRUE(confidence.number(i, 0) >= 0 && confidence.number(i, 0) <= 1);
+  }
+  EXPECT_NEAR(highest, 2.1, 0.15);
+  EXPECT_LT(below, 30u) << "only points in the air lie below the ground";
+  EXPECT_GE(last_scan, 17);
+}
+
+TEST(Samples, AreTheSameOnEveryMachine) {
+  EXPECT_EQ(hash_of(sample_animal(79'000)), 7096738344636656214u);
+  EXPECT_EQ(hash_of(bumpy_plane()), 10467371887320229418u);
+  EXPECT_EQ(hash_of(cylinder()), 1120494238152372246u);
+  EXPECT_EQ(hash_of(cactus()), 449661238303949166u);
+}
+
+TEST(Samples, MeshesHaveTheCountsOfTheirCases) {
+  EXPECT_EQ(bumpy_plane().size(), 40'401u);
+  EXPECT_EQ(bar().size(), 6'082u);
+  EXPECT_EQ(cylinder().size(), 4'802u);
+  EXPECT_NEAR(double(cactus().size()), 5'000, 100);
+}
+
+TEST(Samples, MeshesAreClosedAndTurnedOutwards) {
+  const std::map<std::string, std::pair<Shape, double>> cases{
+      {"bar", {bar(), 0.5 * 1.65 * 0.5}}, {"cylinder", {cylinder(), 0.0361}}, {"cactus", {cactus(), 0.031}}};
+  for (const auto& [name, made] : cases) {
+    const Shape& shape = made.first;
+    SCOPED_TRACE(name);
+    EXPECT_TRUE(all_finite(shape));
+    EXPECT_EQ(connected_components(shape).count, 1u);
+    EXPECT_TRUE(quality_of(shape, shape.positions).closed);
+    EXPECT_NEAR(volume6(shape) / 6, made.second, 0.02 * made.second);
+    EXPECT_EQ(shape.size() - edges_of(shape.faces).size() + shape.faces.size(), 2u) << "Euler: no handles";
+  }
+  const Shape plane = bumpy_plane();
+  EXPECT_FALSE(quality_of(plane, plane.positions).closed);
+  for (const Vec3& n : vertex_normals(plane)) ASSERT_GT(n.y(), 0.3);
+}
+
+TEST(Samples, EditsTakeHoldOfTheirShapes) {
+  const std::map<std::string, Shape> shapes{{"scan", sample_animal(79'000)},
+                                            {"plane", bumpy_plane()},
+                                            {"bar", bar()},
+                                            {"cactus", cactus()},
+                                            {"cylinder", cylinder()}};
+  for (const auto& [name, shape] : shapes) {
+    SCOPED_TRACE(name);
+    const auto edit = nlohmann::json::parse(edit_of(name));
+    const auto& layer = edit.at("layers").at(0);
+    EXPECT_EQ(layer.at("method"), "graph");
+    const std::size_t fixed = count_in(layer.at("fixed").at(0), shape);
+    const std::size_t handle = count_in(layer.at("handles").at(0).at("points"), shape);
+    EXPECT_GT(fixed, 50u);
+    EXPECT_GT(handle, 50u);
+    EXPECT_LT(fixed + handle, shape.size() * 3 / 5);
+  }
+}
+
+TEST(Samples, FilesComeBackAsTheyWere) {
+  const auto folder = std::filesystem::temp_directory_path() / ("sinew-samples-test-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  for (const auto& [name, shape] :
+       {std::pair<std::string, Shape>{"scan.ply", sample_animal(5000)}, {"bar.obj", bar()}}) {
+    SCOPED_TRACE(name);
+    const std::string path = folder / name;
+    io::write(path, shape);
+    const auto back = io::read(path);
+    EXPECT_TRUE(back->positions == shape.positions);
+    ASSERT_EQ(back->attributes.size(), shape.attributes.size());
+    for (std::size_t i = 0; i < shape.attributes.size(); ++i) EXPECT_EQ(back->attributes[i], shape.attributes[i]);
+    EXPECT_EQ(back->faces.points, shape.faces.points);
+  }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Samples, DenseAnimalIsOnePointAfterTheOther) {
+  const auto folder = std::filesystem::temp_directory_path() / ("sinew-dense-test-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  write_dense_animal(folder / "few.ply", 1000, true);
+  write_dense_animal(folder / "more.ply", 3000, true);
+  const auto few = io::read(folder / "few.ply"), more = io::read(folder / "more.ply");
+  ASSERT_EQ(few->size(), 1000u);
+  ASSERT_EQ(more->size(), 3000u);
+  EXPECT_TRUE(std::equal(few->positions.begin(), few->positions.end(), more->positions.begin()));
+  for (std::size_t i = 0; i < more->size(); ++i) ASSERT_GE(more->positions[i].y(), -1e-5);
+  EXPECT_TRUE(all_finite(*more));
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace sinew::samples
