@@ -1,0 +1,24 @@
+#pragma once
+/// EDIT.json, read and written by one description of each struct (interface.md gives the format). A file of the window
+/// is the same with "inputs".
+///
+/// Beyond interface.md: a layer may have "name", "off": true and "start" (maps of 12 numbers); a rotation without "about" turns
+/// about the mean of the handle's points.
+
+#include <string>
+
+#include "engine/document/project.h"
+
+namespace sinew::document {
+
+/// Parses the text of an edit. `path` stands in messages; relative paths in the text are taken from its folder.
+/// Throws InputError: "PATH:LINE:COL: expected ..., found ...".
+Project parse_edit(const std::string& path, std::string text);
+
+/// The text of an edit that parse_edit(path, ...) reads back as `project`.
+std::string edit_text(const std::string& path, const Project& project);
+
+/// Reads a file. Throws InputError.
+Project read_edit(const std::string& path);
+
+}  // namespace sinew::document

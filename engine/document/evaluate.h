@@ -1,0 +1,27 @@
+#pragma once
+/// A shape bent by the layers of a project, once and to convergence: what the command line, export and tests use.
+
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "engine/document/project.h"
+#include "engine/document/report.h"
+#include "engine/document/workspace.h"
+
+namespace sinew::document {
+
+struct Evaluation {
+  std::shared_ptr<const Shape> shape;  ///< bent, with the input's attributes, faces and content
+  std::vector<LayerResult> layers;
+  std::vector<std::vector<Deformer::Table>> bindings;  ///< of each of `layers`, for a pose file
+  std::vector<LayerReport> reports;                    ///< of each of `layers`
+};
+
+/// Selections are made on `input`; motions act on what a layer starts from, the output of the layers below.
+/// Throws InputError, or io::Cancelled where `progress` (see UpdateOptions; empty: none) returned false.
+Evaluation evaluate(const std::shared_ptr<const Shape>& input, std::span<const Layer> layers,
+                    std::span<const Method> methods,
+                    const std::function<bool(const char* what, std::size_t layer, double fraction)>& progress = {});
+
+}  // namespace sinew::document

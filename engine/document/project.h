@@ -1,0 +1,139 @@
+#pragma once
+/// Project: the plain data that the user made. All else is derived from it and can be thrown away at any moment. A value
+/// type: big arrays are shared and never changed, so a copy costs little and undo is the previous Project.
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "engine/document/json.h"
+#include "engine/geometry/shape.h"
+#include "engine/geometry/skin_weights.h"
+
+namespace sinew::document {
+
+/// An array that is shared by copies and never changed. Equal by content.
+template <class T>
+class Shared {
+ public:
+  Shared() = default;
+  explicit Shared(std::vector<T> values) : values_(std::make_shared<const std::vector<T>>(std::move(values))) {}
+  const std::vector<T>& get() const {
+    static const std::vector<T> none;
+    return values_ ? *values_ : none;
+  }
+  bool operator==(const Shared& other) const { return values_ == other.values_ || get() == other.get(); }
+
+ private:
+  std::shared_ptr<const std::vector<T>> values_;
+};
+
+struct SelectAll {
+  bool all = true;
+  bool operator==(const SelectAll&) const = default;
+};
+struct SelectIndices {
+  Shared<Index> points;  ///< from 0, in the point order of the file
+  bool operator==(const SelectIndices&) const = default;
+};
+struct SelectBox {
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();
+  bool operator==(const SelectBox&) const = default;
+};
+struct SelectSphere {
+  Vec3 center = Vec3::Zero();
+  double radius = 0;
+  bool operator==(const SelectSphere&) const = default;
+};
+struct SelectNearest {
+  Vec3 to = Vec3::Zero();  ///< one point; of equally near ones the lowest index
+  bool operator==(const SelectNearest&) const = default;
+};
+struct SelectComponent {
+  Index number = 0;  ///< of connected_components (topology.h)
+  bool operator==(const SelectComponent&) const = default;
+};
+struct SelectLabels {
+  std::string path;  ///< from the working folder; in a file from the file's folder
+  int value = 0;
+  bool operator==(const SelectLabels&) const = default;
+};
+
+/// Which points: interface.md, SELECTION. Coordinates are the file's own, before any edit, borders included.
+struct Selection {
+  std::variant<SelectAll, SelectIndices, SelectBox, SelectSphere, SelectNearest, SelectComponent, SelectLabels> what;
+  Place place;
+  bool operator==(const Selection&) const = default;
+};
+
+struct Rotation {
+  Vec3 axis = Vec3::UnitZ();  ///< any length above 0; right-handed
+  double degrees = 0;
+  std::optional<Vec3> about;  ///< absent: the mean of the handle's points
+  bool operator==(const Rotation&) const = default;
+};
+
+/// Where the points of a handle are to be. p -> A (R (p - about) + about) + t + move, in the order: rotate, matrix,
+/// move; or `to`, the targets themselves, one a point in the order of the selection. All in the file's coordinates.
+struct Motion {
+  std::optional<Vec3> move;
+  std::optional<Rotation> rotate;
+  std::optional<Eigen::Matrix4d> matrix;  ///< [A t; 0 0 0 1]
+  Shared<Vec3> to;
+  bool operator==(const Motion&) const = default;
+};
+
+struct HandleEdit {
+  Selection points;
+  Motion motion;
+  Place place;
+  bool operator==(const HandleEdit&) const = default;
+};
+
+struct Stiffness {
+  Selection points;
+  double factor = 1;
+  bool operator==(const Stiffness&) const = default;
+};
+
+/// Motions of the layer's handles, in their order, at a frame.
+struct Key {
+  int frame = 1;
+  std::vector<Motion> handles;
+  bool operator==(const Key&) const = default;
+};
+
+/// A setting as the user gave it: a number, or the name of a choice.
+struct SettingEdit {
+  std::string name;
+  std::variant<double, std::string> value;
+  Place place;
+  bool operator==(const SettingEdit&) const = default;
+};
+
+struct Layer {
+  std::string name;  ///< what the window calls it; may be empty
+  bool on = true;    ///< off: passed over
+  std::string method = "graph";
+  std::vector<SettingEdit> settings;
+  std::vector<Selection> fixed;
+  std::vector<HandleEdit> handles;
+  std::vector<Selection> rigid;
+  std::vector<Stiffness> stiffness;
+  std::vector<std::string> examples;  ///< paths, as SelectLabels::path
+  std::vector<Key> keys;
+  Shared<Affine> start;  ///< the pose to start the solve from (Deformer::pose); empty: rest
+  Place place;
+  bool operator==(const Layer&) const = default;
+};
+
+struct Project {
+  std::vector<std::string> inputs;  ///< paths, as SelectLabels::path
+  std::vector<Layer> layers;        ///< the first works on the input, each other on the output of the one before
+  bool operator==(const Project&) const = default;
+};
+
+}  // namespace sinew::document

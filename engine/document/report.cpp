@@ -1,0 +1,98 @@
+#include "engine/document/report.h"
+
+#include "engine/geometry/topology.h"
+
+namespace sinew::document {
+
+namespace {
+
+template <class T>
+void member(JsonWriter& out, const std::string& name, const T& value) {
+  out.key(name);
+  write_value(out, value);
+}
+
+/// Counts are whole numbers in doubles.
+void write_counts(JsonWriter& out, const Figures& figures) {
+  for (const auto& [name, value] : figures) member(out, name, static_cast<std::size_t>(value));
+}
+
+void begin(JsonWriter& out, const std::string& name) {
+  out.key(name);
+  out.begin_object();
+}
+
+void write_quality(JsonWriter& out, const Quality& quality) {
+  begin(out, "quality");
+  if (quality.has_edges) {
+    member(out, "edge_rms", quality.edge_rms);
+    member(out, "edge_max", quality.edge_max);
+  }
+  if (quality.closed) member(out, "volume_change", quality.volume_change);
+  out.end_object();
+}
+
+void write_seconds(JsonWriter& out, const LayerReport& layer) {
+  begin(out, "seconds");
+  member(out, "build", layer.build);
+  member(out, "prefactor", layer.solve.prefactor_seconds);
+  member(out, "solve", layer.solve.solve_seconds);
+  if (layer.solve.iterations > 0) member(out, "per_iteration", layer.solve.solve_seconds / layer.solve.iterations);
+  member(out, "skin", layer.skin);
+  out.end_object();
+}
+
+void write_layer(JsonWriter& out, const LayerReport& layer) {
+  out.begin_object();
+  member(out, "method", layer.method);
+  member(out, "status", name_of(layer.solve.status));
+  if (!layer.solve.message.empty()) member(out, "message", layer.solve.message);
+  member(out, "iterations", layer.solve.iterations);
+  write_counts(out, layer.solve.counts);
+  begin(out, "energy");
+  for (const auto& [name, value] : layer.solve.energy) member(out, name, value);
+  out.end_object();
+  begin(out, "handle_error");
+  member(out, "max", layer.handle_max);
+  member(out, "rms", layer.handle_rms);
+  out.end_object();
+  member(out, "example_weights", layer.example_weights);
+  write_quality(out, layer.quality);
+  write_seconds(out, layer);
+  out.end_object();
+}
+
+}  // namespace
+
+InputReport report_of(const Shape& input) {
+  return {representation(input), input.size(), input.faces.size(), connected_components(input).count, 1};
+}
+
+void write_members(JsonWriter& out, const InputReport& input) {
+  member(out, "representation", input.representation);
+  member(out, "points", input.points);
+  member(out, "faces", input.faces);
+  member(out, "components", input.components);
+  member(out, "frames", input.frames);
+}
+
+std::string report_text(const Report& report) {
+  JsonWriter out;
+  out.begin_object();
+  begin(out, "input");
+  write_members(out, report.input);
+  out.end_object();
+  out.key("layers");
+  out.begin_array(false);
+  for (const LayerReport& layer : report.layers) write_layer(out, layer);
+  out.end_array();
+  begin(out, "seconds");
+  member(out, "read", report.read);
+  member(out, "write", report.write);
+  member(out, "total", report.total);
+  out.end_object();
+  out.end_object();
+  return out.result();
+}
+
+}  // namespace sinew::document

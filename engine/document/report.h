@@ -1,0 +1,43 @@
+#pragma once
+/// R.json: what `deform` and `blend` measured (interface.md gives the fields). Fields that do not apply are absent.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/document/json.h"
+#include "engine/geometry/deformer.h"
+#include "engine/geometry/topology.h"
+
+namespace sinew::document {
+
+struct InputReport {
+  std::string representation;
+  std::size_t points = 0, faces = 0, components = 0, frames = 1;
+};
+/// Counts components: seconds for a scan of many million points.
+InputReport report_of(const Shape& input);
+
+/// Energies as the solver has them; distances in units of the input's bounding-box diagonal; times in seconds, measured.
+struct LayerReport {
+  std::string method;
+  SolveReport solve;
+  double handle_max = 0, handle_rms = 0;
+  std::vector<double> example_weights;
+  Quality quality;
+  double build = 0, skin = 0;
+};
+
+struct Report {
+  InputReport input;
+  std::vector<LayerReport> layers;
+  double read = 0, write = 0, total = 0;
+};
+
+/// The text of R.json.
+std::string report_text(const Report& report);
+
+/// The members of "input", for other outputs that show them.
+void write_members(JsonWriter& out, const InputReport& input);
+
+}  // namespace sinew::document

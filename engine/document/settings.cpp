@@ -1,0 +1,118 @@
+#include "engine/document/settings.h"
+
+#include <cmath>
+
+#include "engine/io/text.h"
+
+namespace sinew::document {
+
+namespace {
+
+/// "a", "b", "c"
+template <class Range, class Name>
+std::string list(const Range& range, const Name& name) {
+  std::string text;
+  for (const auto& row : range) text += (text.empty() ? "\"" : ", \"") + name(row) + "\"";
+  return text;
+}
+
+const Setting* find(const Method& method, const std::string& name) {
+  for (const Setting& setting : method.settings)
+    if (setting.name == name) return &setting;
+  return nullptr;
+}
+
+std::string allowed(const Setting& setting) {
+  if (!setting.choices.empty()) return "one of " + list(setting.choices, [](const std::string& c) { return c; });
+  return std::string(setting.integer ? "a whole number" : "a number") + " from " + io::shortest(setting.min) + " to " +
+         io::shortest(setting.max);
+}
+
+double value_of(const SettingEdit& edit, const Setting& setting) {
+  const std::string* text = std::get_if<std::string>(&edit.value);
+  if (text != nullptr)
+    for (std::size_t i = 0; i < setting.choices.size(); ++i)
+      if (setting.choices[i] == *text) return static_cast<double>(i);
+  const double* number = std::get_if<double>(&edit.value);
+  const bool fits = setting.choices.empty() && number != nullptr && *number >= setting.min && *number <= setting.max &&
+                    (!setting.integer || *number == std::floor(*number));
+  if (!fits)
+    throw place_error(edit.place, "setting " + setting.name, allowed(setting) + " for \"" + setting.name + "\"",
+                      text != nullptr ? sinew::quoted(*text) : io::shortest(*number));
+  return *number;
+}
+
+/// Parts of a layer that no method of the table knows yet: their name and how many the layer has.
+void refuse_unknown_parts(const Layer& layer) {
+  const std::pair<const char*, std::size_t> parts[] = {{"rigid", layer.rigid.size()},
+                                                       {"stiffness", layer.stiffness.size()},
+                                                       {"examples", layer.examples.size()},
+                                                       {"keys", layer.keys.size()}};
+  for (const auto& [name, count] : parts)
+    if (count > 0)
+      throw place_error(layer.place, "layer", "no \"" + std::string(name) + "\" for method " + layer.method,
+                        std::to_string(count));
+}
+
+}  // namespace
+
+InputError place_error(const Place& place, const std::string& what, const std::string& expected,
+                       const std::string& found) {
+  return file_error(place.text.empty() ? what : place.text, expected, found);
+}
+
+const Method& method_of(const Layer& layer, std::span<const Method> methods) {
+  for (const Method& method : methods)
+    if (method.name == layer.method) return method;
+  const std::string names = list(methods, [](const Method& m) { return m.name; });
+  throw place_error(layer.place, "layer", "a method, one of " + names, sinew::quoted(layer.method));
+}
+
+Settings settings_of(const Layer& layer, const Method& method) {
+  Settings out;
+  for (const SettingEdit& edit : layer.settings) {
+    const Setting* setting = find(method, edit.name);
+    if (setting == nullptr) {
+      const std::string names = list(method.settings, [](const Setting& s) { return s.name; });
+      throw place_error(edit.place, "layer", "a setting of method " + method.name + ", one of " + names,
+                        sinew::quoted(edit.name));
+    }
+    out.emplace_back(edit.name, value_of(edit, *setting));
+  }
+  return out;
+}
+
+void check_layers(std::span<const Layer> layers, std::span<const Method> methods) {
+  for (const Layer& layer : layers) {
+    if (!layer.on) continue;
+    settings_of(layer, method_of(layer, methods));
+    refuse_unknown_parts(layer);
+  }
+}
+
+void set_from_text(const std::string& text, Project& project, std::span<const Method> methods) {
+  const Place place{"--set " + text};
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw place_error(place, "", "name=value or LAYER.name=value", sinew::quoted(text));
+  std::string name = text.substr(0, equals);
+  const std::string value = text.substr(equals + 1);
+  std::int64_t only = 0;
+  if (const std::size_t dot = name.find('.'); dot != std::string::npos && io::parse(name.substr(0, dot), only))
+    name.erase(0, dot + 1);
+  SettingEdit edit{name, value, place};
+  if (double number = 0; io::parse(value, number)) edit.value = number;
+
+  bool taken = false;
+  for (std::size_t i = 0; i < project.layers.size(); ++i) {
+    Layer& layer = project.layers[i];
+    if (!layer.on || (only != 0 && only != static_cast<std::int64_t>(i) + 1)) continue;
+    if (find(method_of(layer, methods), name) == nullptr) continue;
+    std::erase_if(layer.settings, [&](const SettingEdit& row) { return row.name == name; });
+    layer.settings.push_back(edit);
+    taken = true;
+  }
+  if (!taken) throw place_error(place, "", "a setting of a layer's method (sinew methods lists them)", sinew::quoted(name));
+}
+
+}  // namespace sinew::document
