@@ -88,6 +88,10 @@ class Deformer {
   };
   virtual Structure structure() const = 0;
 
+  /// Sizes of that structure ("nodes", "edges", ...), and what was left out in making it, one sentence each.
+  virtual Figures counts() const = 0;
+  virtual std::vector<std::string> notes() const = 0;
+
   /// What a pose file needs in order to bind and bend other files without solving: plain numbers by name, each a table
   /// with `columns` numbers a row (graph: "nodes" 3, "neighbours" 1). Coordinates are relative to the shape's origin.
   struct Table {
@@ -118,10 +122,12 @@ struct Method {
   std::string name;  ///< "graph", "tet", "shell"
   std::string help;  ///< one sentence
   std::vector<Setting> settings;
-  /// Makes the deformer of a rest shape: builds its structure and binds the shape's points. Throws InputError where the
-  /// shape can't be bent by this method. `progress` is called with 0..1; false cancels (returns null). May be empty.
+  /// Makes the deformer of a rest shape: builds its structure and binds the shape's points. `given` are points of the
+  /// shape that the user chose for that structure (graph: the nodes); empty, the method chooses. Throws InputError
+  /// where the shape can't be bent by this method. `progress` is called with 0..1; false cancels (returns null). May be
+  /// empty.
   std::function<std::unique_ptr<Deformer>(std::shared_ptr<const Shape> rest, const Settings& settings,
-                                          const std::function<bool(double)>& progress)>
+                                          std::span<const Index> given, const std::function<bool(double)>& progress)>
       make;
   /// Binds points from the tables of a pose file (Deformer::binding) without a deformer. Throws InputError with a
   /// message about the tables (the caller adds the path).

@@ -163,7 +163,9 @@ TEST(GraphEnergy, NearestRotationIsNeverAMirror) {
     const Mat3 R = nearest_rotation(M);
     EXPECT_NEAR(R.determinant(), 1, 1e-12);
     EXPECT_LT((R.transpose() * R - Mat3::Identity()).norm(), 1e-12);
-    if (M.determinant() > 0) EXPECT_LT((R.transpose() * M - M.transpose() * R).norm(), 1e-9);  // symmetric stretch
+    if (M.determinant() > 0) {  // the stretch R' M is symmetric
+      EXPECT_LT((R.transpose() * M - M.transpose() * R).norm(), 1e-9);
+    }
   }
   EXPECT_NEAR(nearest_rotation(-Mat3::Identity()).determinant(), 1, 1e-12);
 }

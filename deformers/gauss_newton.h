@@ -1,0 +1,51 @@
+#pragma once
+/// Gauss-Newton with a factor that is kept: minimises F(x) = f'f by steps -(J'J)^-1 J'f [Sumner et al. 2007, eq. 10-12;
+/// Madsen, Nielsen, Tingleff 2004]. F never rises: a step that would raise it is halved. A factor of J'J serves several
+/// iterations (and solves) until progress slows, because a solve with it costs a tenth of making it; the limit is the
+/// same, since the gradient is always exact.
+
+#include <functional>
+#include <vector>
+
+#include "deformers/sparse_cholesky.h"
+#include "engine/geometry/deformer.h"
+
+namespace sinew {
+
+/// What is minimised. x is held by whoever makes the model.
+struct GaussNewtonModel {
+  std::function<double()> energy;                   ///< F(x)
+  std::function<void(std::span<double>)> gradient;  ///< J'f at x (half the gradient of F)
+  std::function<void(BlockMatrix&)> hessian;        ///< J'J at x
+  std::function<void(std::span<const double>, double)>
+      try_step;                          ///< a trial x + scale * step; energy_of_trial goes with it
+  std::function<double()> trial_energy;  ///< F(trial)
+  std::function<void()> accept;          ///< x <- trial
+};
+
+/// A matrix with its factor and the damping that it needed; kept between solves of the same pattern.
+struct KeptFactor {
+  BlockMatrix H;
+  SparseCholesky cholesky;
+  bool usable = false;  ///< a factor of some earlier H is there
+};
+
+struct GaussNewtonOptions {
+  int max_iterations = 100;
+  double epsilon = 1e-6;               ///< of the three tests of eq. 12
+  double relative_decrease = 0;        ///< if positive: F must also fall by less than this share of itself
+  bool keep_factor = true;             ///< false: the plain method, a new factor in every iteration
+  std::function<bool()> on_iteration;  ///< after each accepted step; false stops
+};
+
+struct GaussNewtonResult {
+  Status status = Status::Converged;
+  std::string message;
+  int iterations = 0, factorizations = 0;
+  double energy = 0;
+};
+
+/// `kept.H` has the pattern and `kept.cholesky` has analysed it.
+GaussNewtonResult gauss_newton(const GaussNewtonModel& model, KeptFactor& kept, const GaussNewtonOptions& options);
+
+}  // namespace sinew

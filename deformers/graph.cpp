@@ -1,0 +1,264 @@
+#include "deformers/graph.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "deformers/graph_nodes.h"
+#include "deformers/graph_solver.h"
+#include "deformers/graph_weights.h"
+#include "engine/geometry/bounds.h"
+#include "engine/geometry/error.h"
+
+namespace sinew {
+
+namespace {
+
+std::vector<Vec3> choose_nodes(const Shape& shape, const GraphOptions& options, std::vector<std::string>& notes) {
+  std::vector<Vec3> nodes;
+  for (const Index i : options.given) {
+    if (i >= shape.size() || !shape.positions[i].allFinite())
+      throw InputError("graph nodes: expected finite points of the shape, found index " + std::to_string(i));
+    nodes.push_back(shape.positions[i]);
+  }
+  if (!nodes.empty()) return nodes;
+  const auto count = static_cast<std::size_t>(options.nodes);
+  if (options.simplify) {
+    if (shape.faces.empty())
+      throw InputError(
+          "graph nodes: expected a shape with faces to simplify, found points only; choose sampling \"radius\"");
+    std::string note;
+    nodes = simplify_to_nodes(shape, count, note);
+    if (!note.empty()) notes.push_back(note);
+  } else {
+    nodes = sample_nodes(shape, count, options.seed);
+  }
+  if (nodes.empty()) throw InputError("graph nodes: expected at least one point with finite coordinates, found none");
+  return nodes;
+}
+
+class GraphDeformer final : public Deformer {
+ public:
+  GraphDeformer(std::shared_ptr<const Shape> rest, const GraphOptions& options, std::vector<Vec3> nodes,
+                NearestTree tree, SkinWeights weights, std::vector<std::string> notes)
+      : rest_(std::move(rest)),
+        neighbours_(options.neighbours),
+        unit_(normalization_of(bounds_of(rest_->positions))),
+        nodes_(std::move(nodes)),
+        tree_(std::move(tree)),
+        weights_(std::move(weights)),
+        notes_(std::move(notes)),
+        solver_(normalised(nodes_), influence_edges(weights_, nodes_.size()),
+                {options.w_rot, options.w_reg, options.w_con}, options.plain) {
+    publish();
+  }
+
+  const SkinWeights& weights() const override { return weights_; }
+  SkinWeights bind(std::span<const Vec3> points) const override { return node_weights(tree_, neighbours_, points); }
+  const Pose& pose() const override { return pose_; }
+  std::vector<std::string> notes() const override { return notes_; }
+
+  Figures counts() const override {
+    return {{"nodes", static_cast<double>(nodes_.size())}, {"edges", static_cast<double>(solver_.edges().size())}};
+  }
+
+  SolveReport solve(const Constraints& constraints, const SolveOptions& options) override {
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<Vec3> targets;
+    std::vector<Index> handle_points;
+    for (const Handle& handle : constraints.handles) {
+      CHECK(handle.points.size() == handle.targets.size(), handle.points.size(), handle.targets.size());
+      for (std::size_t i = 0; i < handle.points.size(); ++i) {
+        // A point that is not finite follows nothing and can hold nothing.
+        if (row_empty(handle.points[i]) || !handle.targets[i].allFinite()) continue;
+        handle_points.push_back(handle.points[i]);
+        targets.push_back(unit_.apply(handle.targets[i]));
+      }
+    }
+    if (constraints.fixed != fixed_ || handle_points != handle_points_)
+      prepare(constraints.fixed, std::move(handle_points));
+    const double prefactor = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    SolveReport report = solver_.solve(targets, options, [&] {
+      if (!options.on_iteration) return true;
+      publish();
+      return options.on_iteration(pose_);
+    });
+    report.prefactor_seconds = prefactor;
+    publish();
+    return report;
+  }
+
+  void reset() override {
+    solver_.set_x(GraphState::rest(nodes_.size()));
+    publish();
+  }
+
+  void start_from(const Pose& pose) override {
+    CHECK(pose.size() == nodes_.size(), pose.size(), nodes_.size());
+    GraphState x = GraphState::rest(nodes_.size());
+    for (std::size_t j = 0; j < pose.size(); ++j) {
+      x.R[j] = pose[j].leftCols<3>();
+      x.t[j] = unit_.scale * (x.R[j] * nodes_[j] + pose[j].col(3) - nodes_[j]);
+    }
+    solver_.set_x(std::move(x));
+    publish();
+  }
+
+  Structure structure() const override {
+    Structure out{nodes_, {solver_.edges().begin(), solver_.edges().end()}, {}};
+    for (Index j = 0; j < nodes_.size(); ++j) out.maps.push_back(j);
+    return out;
+  }
+
+  std::vector<Table> binding() const override {
+    Table nodes{"nodes", 3, {}};
+    for (const Vec3& g : nodes_) nodes.values.insert(nodes.values.end(), g.data(), g.data() + 3);
+    return {std::move(nodes), {"neighbours", 1, {static_cast<double>(neighbours_)}}};
+  }
+
+ private:
+  std::vector<Vec3> normalised(const std::vector<Vec3>& points) const {
+    std::vector<Vec3> out;
+    for (const Vec3& p : points) out.push_back(unit_.apply(p));
+    return out;
+  }
+
+  bool row_empty(Index point) const {
+    CHECK(point < weights_.size(), point, weights_.size());
+    return weights_.offsets[point] == weights_.offsets[point + 1];
+  }
+
+  void prepare(const std::vector<Index>& fixed, std::vector<Index> handle_points) {
+    fixed_ = fixed;
+    handle_points_ = std::move(handle_points);
+    std::vector<bool> fixed_node(nodes_.size(), false);
+    for (const Index i : fixed_) {
+      CHECK(i < weights_.size(), i, weights_.size());
+      for (std::uint64_t e = weights_.offsets[i]; e < weights_.offsets[i + 1]; ++e) fixed_node[weights_.maps[e]] = true;
+    }
+    std::vector<GraphHandle> handles;
+    for (const Index i : handle_points_) {
+      GraphHandle handle{unit_.apply(rest_->positions[i]), {}, {}};
+      for (std::uint64_t e = weights_.offsets[i]; e < weights_.offsets[i + 1]; ++e) {
+        handle.nodes.push_back(weights_.maps[e]);
+        handle.weights.push_back(weights_.weights[e]);
+      }
+      handles.push_back(std::move(handle));
+    }
+    solver_.prepare(fixed_node, std::move(handles));
+  }
+
+  /// x as affine maps in the shape's coordinates: [R | g + t - R g] with g, t in its unit.
+  void publish() {
+    const GraphState& x = solver_.x();
+    pose_.resize(nodes_.size());
+    for (std::size_t j = 0; j < nodes_.size(); ++j)
+      pose_[j] << x.R[j], nodes_[j] + x.t[j] / unit_.scale - x.R[j] * nodes_[j];
+  }
+
+  std::shared_ptr<const Shape> rest_;
+  int neighbours_;
+  Normalization unit_;
+  std::vector<Vec3> nodes_;
+  NearestTree tree_;
+  SkinWeights weights_;
+  std::vector<std::string> notes_;
+  GraphSolver solver_;
+  std::vector<Index> fixed_, handle_points_;
+  Pose pose_;
+};
+
+const std::vector<Setting>& graph_settings() {
+  static const std::vector<Setting> settings = {
+      {"nodes", 250, 1, 100000, "", "How many nodes the graph has; 200 to 300 pose a whole body.", true, {}},
+      {"neighbours", 4, 1, 32, "", "How many nodes a point follows; 8 smooths over a regular graph.", true, {}},
+      {"sampling",
+       0,
+       0,
+       1,
+       "",
+       "How nodes are chosen: evenly over the surface, or by simplifying the faces.",
+       false,
+       {"radius", "simplify"}},
+      {"seed", 0, 0, 1e9, "", "Another number gives another random sampling.", true, {}},
+      {"rotation", 1, 0, 1e9, "", "Weight of staying rigid locally (w_rot).", false, {}},
+      {"regularization",
+       10,
+       0,
+       1e9,
+       "1/diagonal^2",
+       "Weight of agreement between neighbouring nodes (w_reg).",
+       false,
+       {}},
+      {"constraint", 100, 0, 1e9, "1/diagonal^2", "Weight of reaching the handles (w_con).", false, {}},
+      {"solver",
+       0,
+       0,
+       1,
+       "",
+       "\"fast\" keeps factors and starts rigid; \"plain\" is the paper's Gauss-Newton.",
+       false,
+       {"fast", "plain"}},
+  };
+  return settings;
+}
+
+std::unique_ptr<Deformer> make(std::shared_ptr<const Shape> rest, const Settings& settings,
+                               std::span<const Index> given, const std::function<bool(double)>& progress) {
+  const auto value = [&](const char* name) { return value_of(settings, graph_settings(), name); };
+  GraphOptions options;
+  options.nodes = static_cast<int>(value("nodes"));
+  options.neighbours = static_cast<int>(value("neighbours"));
+  options.simplify = value("sampling") == 1;
+  options.seed = static_cast<std::uint64_t>(value("seed"));
+  options.w_rot = value("rotation");
+  options.w_reg = value("regularization");
+  options.w_con = value("constraint");
+  options.plain = value("solver") == 1;
+  options.given.assign(given.begin(), given.end());
+  return make_graph_deformer(std::move(rest), options, progress);
+}
+
+SkinWeights bind_from_tables(const std::vector<Deformer::Table>& binding, std::span<const Vec3> points) {
+  const Deformer::Table *nodes = nullptr, *neighbours = nullptr;
+  for (const Deformer::Table& table : binding) {
+    if (table.name == "nodes" && table.columns == 3) nodes = &table;
+    if (table.name == "neighbours" && table.columns == 1 && table.values.size() == 1) neighbours = &table;
+  }
+  if (nodes == nullptr || nodes->values.empty() || nodes->values.size() % 3 != 0)
+    throw InputError("expected a table \"nodes\" of three columns, found none");
+  if (neighbours == nullptr || !(neighbours->values[0] >= 1 && neighbours->values[0] <= 1000))
+    throw InputError("expected a table \"neighbours\" with one number from 1 to 1000, found none");
+  std::vector<Vec3> g;
+  for (std::size_t i = 0; i < nodes->values.size(); i += 3) {
+    g.emplace_back(nodes->values[i], nodes->values[i + 1], nodes->values[i + 2]);
+    if (!g.back().allFinite())
+      throw InputError("table \"nodes\": expected finite numbers, found row " + std::to_string(i / 3));
+  }
+  return node_weights(NearestTree(g), static_cast<int>(neighbours->values[0]), points);
+}
+
+}  // namespace
+
+std::unique_ptr<Deformer> make_graph_deformer(std::shared_ptr<const Shape> rest, const GraphOptions& options,
+                                              const std::function<bool(double)>& progress) {
+  std::vector<std::string> notes;
+  std::vector<Vec3> nodes = choose_nodes(*rest, options, notes);
+  if (progress && !progress(0.2)) return nullptr;
+  NearestTree tree(nodes);
+  bool cancelled = false;
+  SkinWeights weights = node_weights(tree, options.neighbours, rest->positions, [&](double done) {
+    cancelled = progress && !progress(0.2 + 0.8 * done);
+    return !cancelled;
+  });
+  if (cancelled) return nullptr;
+  return std::make_unique<GraphDeformer>(std::move(rest), options, std::move(nodes), std::move(tree),
+                                         std::move(weights), std::move(notes));
+}
+
+Method graph_method() {
+  return {"graph", "A graph of affine maps: bends anything that is points in space.", graph_settings(), make,
+          bind_from_tables};
+}
+
+}  // namespace sinew

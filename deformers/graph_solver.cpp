@@ -1,0 +1,142 @@
+#include "deformers/graph_solver.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+
+namespace sinew {
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+GraphSolver::GraphSolver(std::vector<Vec3> nodes, std::vector<std::pair<Index, Index>> edges, GraphWeights weights,
+                         bool plain)
+    : nodes_(std::move(nodes)),
+      edges_(std::move(edges)),
+      weights_(weights),
+      plain_(plain),
+      x_(GraphState::rest(nodes_.size())) {
+  prepare(std::vector<bool>(nodes_.size(), false), {});
+}
+
+/// Nodes that are not fixed and whose component has a fixed node or a handle: the others have nothing that determines
+/// them.
+std::vector<bool> GraphSolver::moving_nodes(const std::vector<bool>& fixed) const {
+  std::vector<Index> parent(nodes_.size());
+  std::iota(parent.begin(), parent.end(), Index{0});
+  const auto root = [&](Index i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+  };
+  for (const auto& [j, k] : edges_) parent[root(j)] = root(k);
+  std::vector<bool> constrained(nodes_.size(), false);
+  for (Index j = 0; j < nodes_.size(); ++j)
+    if (fixed[j]) constrained[root(j)] = true;
+  for (const GraphHandle& handle : handles_)
+    for (const Index j : handle.nodes) constrained[root(j)] = true;
+  std::vector<bool> moving(nodes_.size());
+  for (Index j = 0; j < nodes_.size(); ++j) moving[j] = !fixed[j] && constrained[root(j)];
+  return moving;
+}
+
+void GraphSolver::prepare(const std::vector<bool>& fixed, std::vector<GraphHandle> handles) {
+  CHECK(fixed.size() == nodes_.size(), fixed.size(), nodes_.size());
+  handles_ = std::move(handles);
+  free_ = moving_nodes(fixed);
+  resting_ = 0;
+  for (Index j = 0; j < nodes_.size(); ++j) resting_ += !free_[j] && !fixed[j];
+  energy_.build(nodes_, edges_, free_, handles_, weights_);
+  rigid_ = {energy_.hessian_pattern(6), {}, false};
+  rigid_.cholesky.analyse(rigid_.H);
+  affine_ = {};
+  affine_ready_ = false;
+  set_x(std::move(x_));
+}
+
+void GraphSolver::set_x(GraphState x) {
+  CHECK(x.R.size() == nodes_.size() && x.t.size() == nodes_.size(), x.R.size(), nodes_.size());
+  x_ = std::move(x);
+  for (Index j = 0; j < nodes_.size(); ++j)
+    if (!free_[j]) {
+      x_.R[j].setIdentity();
+      x_.t[j].setZero();
+    }
+}
+
+GaussNewtonResult GraphSolver::minimise_rigid(const GaussNewtonOptions& options) {
+  for (const Index j : energy_.free_nodes()) x_.R[j] = nearest_rotation(x_.R[j]);
+  GraphState trial;
+  GaussNewtonModel model;
+  model.energy = [&] { return energy_.energy(x_, true).total(); };
+  model.gradient = [&](std::span<double> g) { energy_.gradient_rigid(x_, g); };
+  model.hessian = [&](BlockMatrix& H) { energy_.hessian_rigid(x_, H); };
+  model.try_step = [&](std::span<const double> step, double scale) { trial = energy_.step_rigid(x_, step, scale); };
+  model.trial_energy = [&] { return energy_.energy(trial, true).total(); };
+  model.accept = [&] { std::swap(x_, trial); };
+  return gauss_newton(model, rigid_, options);
+}
+
+GaussNewtonResult GraphSolver::minimise_affine(const GaussNewtonOptions& options) {
+  if (!affine_ready_) {
+    affine_ = {energy_.hessian_pattern(12), {}, false};
+    affine_.cholesky.analyse(affine_.H);
+    affine_ready_ = true;
+  }
+  std::vector<Mat3> Q(nodes_.size(), Mat3::Identity());
+  for (const Index j : energy_.free_nodes()) Q[j] = nearest_rotation(x_.R[j]);
+  GraphState trial;
+  GaussNewtonModel model;
+  model.energy = [&] { return energy_.energy(x_, false).total(); };
+  model.gradient = [&](std::span<double> g) { energy_.gradient_affine(x_, Q, g); };
+  model.hessian = [&](BlockMatrix& H) { energy_.hessian_affine(x_, Q, H); };
+  model.try_step = [&](std::span<const double> step, double scale) { trial = energy_.step_affine(x_, Q, step, scale); };
+  model.trial_energy = [&] { return energy_.energy(trial, false).total(); };
+  model.accept = [&] { std::swap(x_, trial); };
+  return gauss_newton(model, affine_, options);
+}
+
+SolveReport GraphSolver::solve(std::span<const Vec3> targets, const SolveOptions& options,
+                               const std::function<bool()>& on_iteration) {
+  const auto start = std::chrono::steady_clock::now();
+  const bool final_answer = options.quality == SolveOptions::Quality::Final;
+  energy_.set_targets(targets);
+  GaussNewtonOptions plan{options.max_iterations, options.epsilon, 0, !plain_, on_iteration};
+  GaussNewtonResult result;
+  SolveReport report;
+  if (!plain_) {
+    result = minimise_rigid(plan);
+    report.iterations = result.iterations;
+  }
+  const bool go_on = result.status == Status::Converged || result.status == Status::Stalled;
+  if (plain_ || (final_answer && go_on && result.iterations < options.max_iterations)) {
+    plan.max_iterations -= report.iterations;
+    plan.relative_decrease = 1e-8;  // the minimum to 1e-6 of the energy, also where the energy is small
+    result = minimise_affine(plan);
+    report.iterations += result.iterations;
+  }
+  report.status = result.status;
+  report.message = result.message;
+  const GraphEnergy::Terms terms = energy_.energy(x_, false);
+  report.energy = {{"total", terms.total()},
+                   {"rotation", terms.rotation},
+                   {"regularization", terms.regularization},
+                   {"constraint", terms.constraint}};
+  const double unknowns = 12.0 * static_cast<double>(energy_.free_count());
+  report.counts = {{"unknowns", unknowns},
+                   {"nodes", static_cast<double>(nodes_.size())},
+                   {"edges", static_cast<double>(edges_.size())}};
+  std::tie(report.handle_rms, report.handle_max) = energy_.handle_error(x_);
+  if (resting_ > 0 && report.message.empty())
+    report.message = std::to_string(resting_) + " of " + std::to_string(nodes_.size()) +
+                     " nodes rest: nothing they are joined to is fixed or a handle";
+  report.solve_seconds = seconds_since(start);
+  return report;
+}
+
+}  // namespace sinew

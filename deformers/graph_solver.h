@@ -1,0 +1,48 @@
+#pragma once
+/// Solves a deformation graph for changing handles: what depends on which points are fixed or handles is prepared when
+/// the sets change, what depends on the targets alone is cheap. Works in normalised coordinates.
+
+#include <vector>
+
+#include "deformers/gauss_newton.h"
+#include "deformers/graph_energy.h"
+
+namespace sinew {
+
+class GraphSolver {
+ public:
+  GraphSolver(std::vector<Vec3> nodes, std::vector<std::pair<Index, Index>> edges, GraphWeights weights, bool plain);
+
+  std::span<const Vec3> nodes() const { return nodes_; }
+  std::span<const std::pair<Index, Index>> edges() const { return edges_; }
+
+  /// Which nodes are fixed and which points are handles. x stays where it is, except that nodes which are fixed, or lie
+  /// in a component of the graph without handle or fixed node, go to rest.
+  void prepare(const std::vector<bool>& fixed, std::vector<GraphHandle> handles);
+
+  /// Minimises from the present x. `on_iteration` is called after each accepted step; false stops.
+  SolveReport solve(std::span<const Vec3> targets, const SolveOptions& options,
+                    const std::function<bool()>& on_iteration);
+
+  const GraphState& x() const { return x_; }
+  void set_x(GraphState x);
+
+ private:
+  std::vector<bool> moving_nodes(const std::vector<bool>& fixed) const;
+  GaussNewtonResult minimise_rigid(const GaussNewtonOptions& options);
+  GaussNewtonResult minimise_affine(const GaussNewtonOptions& options);
+
+  std::vector<Vec3> nodes_;
+  std::vector<std::pair<Index, Index>> edges_;
+  GraphWeights weights_;
+  bool plain_;
+  std::vector<bool> free_;
+  std::vector<GraphHandle> handles_;
+  GraphEnergy energy_;
+  KeptFactor rigid_, affine_;
+  bool affine_ready_ = false;  ///< the 12-unknown pattern is analysed: only when it is needed
+  std::size_t resting_ = 0;    ///< nodes in components without a constraint
+  GraphState x_;
+};
+
+}  // namespace sinew
