@@ -1,0 +1,10 @@
+#version 460
+
+layout(location = 0) in vec4 color;
+layout(location = 0) out vec4 out_color;
+
+void main() {
+  const vec2 from_middle = gl_PointCoord - 0.5;
+  if (dot(from_middle, from_middle) > 0.25) discard;
+  out_color = color;
+}
