@@ -223,6 +223,7 @@ static void fields(A& a, Is<Layer> auto& layer) {
   a.optional("off", off);
   a.required("method", layer.method);
   a.optional("settings", settings);
+  a.optional("nodes", layer.nodes);
   a.optional("fixed", layer.fixed);
   a.optional("handles", layer.handles);
   a.optional("rigid", layer.rigid);
@@ -256,6 +257,7 @@ static void change_paths(Project& project, const Change& change) {
   for (std::string& path : project.inputs) path = change(path);
   for (Layer& layer : project.layers) {
     for (std::string& path : layer.examples) path = change(path);
+    for (Selection& selection : layer.nodes) visit(selection);
     for (Selection& selection : layer.fixed) visit(selection);
     for (Selection& selection : layer.rigid) visit(selection);
     for (HandleEdit& handle : layer.handles) visit(handle.points);

@@ -2,7 +2,8 @@
 /// EDIT.json, read and written by one description of each struct (interface.md gives the format). A file of the window
 /// is the same with "inputs".
 ///
-/// Beyond interface.md: a layer may have "name", "off": true and "start" (maps of 12 numbers); a rotation without "about" turns
+/// Beyond interface.md: a layer may have "name", "off": true, "nodes" (selections of the points that the method is
+/// to build its structure on) and "start" (maps of 12 numbers, the pose to start from); a rotation without "about" turns
 /// about the mean of the handle's points.
 
 #include <string>

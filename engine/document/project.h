@@ -119,6 +119,7 @@ struct Layer {
   bool on = true;    ///< off: passed over
   std::string method = "graph";
   std::vector<SettingEdit> settings;
+  std::vector<Selection> nodes;  ///< points that the method is to build its structure on; empty: it chooses
   std::vector<Selection> fixed;
   std::vector<HandleEdit> handles;
   std::vector<Selection> rigid;

@@ -121,7 +121,15 @@ std::vector<Index> Selector::select(const Selection& selection) {
 }
 
 std::vector<Index> Selector::points(const Selection& selection) {
-  std::vector<Index> out = select(selection);
+  return points(std::span(&selection, 1));
+}
+
+std::vector<Index> Selector::points(std::span<const Selection> selections) {
+  std::vector<Index> out;
+  for (const Selection& selection : selections) {
+    const std::vector<Index> more = select(selection);
+    out.insert(out.end(), more.begin(), more.end());
+  }
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
@@ -142,10 +150,8 @@ Constraints Selector::constraints(const Layer& layer, std::span<const Vec3> rest
   constexpr Index none = ~Index{0}, fixed = none - 1;
   std::vector<Index> owner(rest.size(), none);
   Constraints out;
-  for (const Selection& selection : layer.fixed)
-    for (const Index i : points(selection)) owner[i] = fixed;
-  for (std::size_t i = 0; i < owner.size(); ++i)
-    if (owner[i] == fixed) out.fixed.push_back(static_cast<Index>(i));
+  out.fixed = points(layer.fixed);
+  for (const Index i : out.fixed) owner[i] = fixed;
 
   const auto name = [](Index h) { return h == fixed ? "of the fixed" : "of handle " + std::to_string(h + 1); };
   for (std::size_t h = 0; h < layer.handles.size(); ++h) {

@@ -21,6 +21,8 @@ class Selector {
 
   /// Ascending, each once; never empty.
   std::vector<Index> points(const Selection& selection);
+  /// Of all of them together; empty only where there are none.
+  std::vector<Index> points(std::span<const Selection> selections);
 
   /// As points(), but indices in their written order; an index given twice is an error.
   std::vector<Index> points_as_written(const Selection& selection);

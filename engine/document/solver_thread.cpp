@@ -11,7 +11,7 @@ namespace {
 bool same_build(const SolveRequest& now, const SolveRequest& next, std::size_t index) {
   if (now.input != next.input || index >= next.layers.size()) return false;
   const Layer &a = now.layers[index], &b = next.layers[index];
-  return b.on && a.method == b.method && a.settings == b.settings;
+  return b.on && a.method == b.method && a.settings == b.settings && a.nodes == b.nodes;
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ UpdateResult Workspace::update(std::span<const Layer> layers, const UpdateOption
     }
     const std::shared_ptr<const Shape> rest = output(below);
     const bool same = kept.deformer != nullptr && kept.rest == rest && kept.layer.method == layer.method &&
-                      kept.layer.settings == layer.settings;
+                      kept.layer.settings == layer.settings && kept.layer.nodes == layer.nodes;
     if (!same) {
       kept = {};
       kept.rest = rest;
@@ -86,7 +86,8 @@ bool Workspace::make(Kept& kept, const Layer& layer, std::size_t index, const Up
   const auto progress = [&](double fraction) {
     return !options.progress || options.progress("building", index, fraction);
   };
-  kept.deformer = method.make(kept.rest, settings_of(layer, method), progress);
+  const Settings settings = settings_of(layer, method);
+  kept.deformer = method.make(kept.rest, settings, selector_.points(layer.nodes), progress);
   if (kept.deformer == nullptr) return false;
   kept.result.layer = index;
   kept.result.build_seconds = seconds_since(begin);

@@ -1,0 +1,117 @@
+#include <fmt/core.h>
+
+#include <chrono>
+
+#include "apps/sinew/command.h"
+#include "apps/sinew/files.h"
+#include "apps/sinew/progress.h"
+#include "deformers/methods.h"
+#include "engine/document/edit.h"
+#include "engine/document/evaluate.h"
+#include "engine/document/pose_file.h"
+#include "engine/document/settings.h"
+
+namespace sinew::app {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+struct Options {
+  std::string input, from, edit, report, pose;
+  std::vector<std::string> settings;
+  Output out;
+  bool strict = false;
+};
+
+document::Project edit_of(const Options& options) {
+  document::Project project = document::read_edit(options.edit);
+  for (const std::string& setting : options.settings) document::set_from_text(setting, project, methods());
+  document::check_layers(project.layers, methods());
+  return project;
+}
+
+/// All outputs, before any work is done.
+void check_outputs(const Options& options) {
+  if (options.input == "-" && options.edit == "-") throw UsageError("expected one of INPUT and --edit to be -, found both");
+  const int streams = (options.out.path == "-") + (options.report == "-") + (options.pose == "-");
+  if (streams > 1) throw UsageError("expected one output to be -, found " + std::to_string(streams));
+  check_output(options.out);
+  if (!options.report.empty()) check_output_text(options.report, options.out.force);
+  if (!options.pose.empty()) check_output_text(options.pose, options.out.force);
+}
+
+document::Evaluation solve(const std::shared_ptr<const Shape>& input, const document::Project& project) {
+  Progress progress("");
+  const auto show = [&](const char* what, std::size_t layer, double fraction) {
+    return progress(fmt::format("{} layer {}", what, layer + 1), fraction);
+  };
+  return document::evaluate(input, project.layers, methods(), show);
+}
+
+/// The worst of the layers: Failed, NotConverged or Ok; messages of the layers go to standard error.
+int status_of(const document::Evaluation& evaluation, bool strict) {
+  int status = Ok;
+  for (std::size_t i = 0; i < evaluation.reports.size(); ++i) {
+    const SolveReport& report = evaluation.reports[i].solve;
+    const std::string place = fmt::format("layer {}", evaluation.layers[i].layer + 1);
+    if (!report.message.empty()) message(place + ": " + report.message);
+    if (report.status == Status::Failed) return Failed;
+    if (report.status == Status::Converged || !strict) continue;
+    message(fmt::format("{}: expected a solve that converges, found {} after {} iterations", place,
+                        name_of(report.status), report.iterations));
+    status = NotConverged;
+  }
+  return status;
+}
+
+int run(const Options& options) {
+  const Clock::time_point begin = Clock::now();
+  check_outputs(options);
+  const document::Project project = edit_of(options);
+  document::Report report;
+  const std::shared_ptr<const Shape> input = read_input(options.input, options.from);
+  report.read = seconds_since(begin);
+  const document::Evaluation evaluation = solve(input, project);
+  const int status = status_of(evaluation, options.strict);
+  if (status == Failed) return Failed;
+
+  const Clock::time_point write_begin = Clock::now();
+  write_output(options.out, *evaluation.shape);
+  report.write = seconds_since(write_begin);
+  if (!options.pose.empty())
+    write_output_text(options.pose, solved_edit_text(solved_edit(evaluation, project.layers)), options.out.force);
+  if (!options.report.empty()) {
+    report.total = seconds_since(begin);
+    report.input = document::report_of(*input);
+    report.layers = evaluation.reports;
+    write_output_text(options.report, report_text(report), options.out.force);
+  }
+  return status;
+}
+
+}  // namespace
+
+std::function<int()> declare_deform(Arguments& arguments) {
+  const auto options = std::make_shared<Options>();
+  arguments.positional("INPUT", options->input, "File to bend, or the .conf of a scan set; - with --from");
+  arguments.option("-e,--edit", "EDIT.json", options->edit, "What to do: layers of handles and fixed points; may be -",
+                   true);
+  arguments.option("-o,--output", "OUT", options->out.path,
+                   "File to write; - with --to; a folder, ending in /, takes a scan set as one file a scan", true);
+  arguments.options("--set", "NAME=VALUE", options->settings,
+                    "A setting of every layer whose method has it, or of layer N: N.NAME=VALUE (see sinew methods)");
+  arguments.option("--report", "R.json", options->report, "Write figures of the solve");
+  arguments.option("--pose", "P", options->pose, "Write the solved edit, for sinew apply");
+  arguments.flag("--strict", options->strict, "Exit with 4 where a layer did not converge (the files are written)");
+  arguments.flag("--force", options->out.force, "Replace outputs that exist");
+  arguments.option("--from", "EXT", options->from, "Format of standard input, by an extension");
+  arguments.option("--to", "EXT", options->out.as, "Format of standard output, by an extension");
+  return [options] { return run(*options); };
+}
+
+}  // namespace sinew::app

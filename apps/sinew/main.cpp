@@ -1,0 +1,72 @@
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "apps/sinew/command.h"
+#include "apps/sinew/files.h"
+#include "apps/sinew/interrupt.h"
+#include "engine/geometry/error.h"
+#include "engine/io/io.h"
+
+namespace sinew::app {
+
+namespace {
+
+constexpr Command commands[] = {
+    {"info", "Shows what files hold: representation, points, faces, components, bounds, attributes",
+     "  sinew info scan.ply\n"
+     "  sinew info --json *.obj\n"
+     "  zcat scan.ply.gz | sinew info - --from ply",
+     declare_info},
+    {"deform", "Solves an edit and writes the bent file",
+     "  sinew deform scan.ply --edit lift.json -o bent.ply\n"
+     "  sinew deform bun.conf --edit ears.json -o bent/           (one file a scan)\n"
+     "  sinew deform plane.obj --edit lift.json -o bent.obj --set nodes=300 --report r.json --pose lift.pose",
+     declare_deform},
+    {"diff", "Shows what changed between two files: point distances, attributes, everything else",
+     "  sinew diff scan.ply bent.ply\n"
+     "  sinew diff --json before.obj after.obj",
+     declare_diff},
+    {"convert", "Reads a file and writes it, changing nothing but the format",
+     "  sinew convert scan.pcd scan.ply\n"
+     "  sinew convert bun.conf merged.ply\n"
+     "  cat mesh.off | sinew convert - mesh.obj --from off",
+     declare_convert},
+    {"formats", "Lists the formats that are read and written", "  sinew formats", declare_formats},
+    {"methods", "Lists the methods of an edit and their settings", "  sinew methods\n  sinew methods --json",
+     declare_methods},
+};
+
+int run(int argc, char** argv) {
+  try {
+    const int status = run_command_line(commands, argc, argv);
+    if (std::fflush(stdout) != 0) {
+      message("expected to write to standard output, found it closed or full");
+      return Failed;
+    }
+    return interrupted() ? Interrupted : status;
+  } catch (const UsageError& error) {
+    message(error.what());
+    return Usage;
+  } catch (const io::Cancelled&) {
+    return Interrupted;
+  } catch (const InputError& error) {
+    message(error.what());
+    return interrupted() ? Interrupted : writing_failed() ? Failed : BadInput;
+  } catch (const std::bad_alloc&) {
+    message("expected enough memory, found too little");
+    return Failed;
+  } catch (const std::exception& error) {
+    message(error.what());
+    return Failed;
+  }
+}
+
+}  // namespace
+
+}  // namespace sinew::app
+
+int main(int argc, char** argv) {
+  sinew::app::handle_interrupts();
+  return sinew::app::run(argc, argv);
+}
