@@ -27,14 +27,15 @@ bool factorize(const GaussNewtonModel& model, KeptFactor& kept, const Vector& g)
 
   Vector x(g.size()), y(g.size());
   for (double share = 1e-9; share < 1; share *= 1000) {
-    const std::vector<double> damping(n, share * mean);
+    std::vector<double> damping(n);
+    for (std::size_t i = 0; i < n; ++i) damping[i] = share * mean * model.held[i % model.held.size()];
     kept.usable = kept.cholesky.factorize(kept.H, damping);
     if (!kept.usable) continue;
     x = g;
     kept.cholesky.solve(span_of(x));
     if (!x.allFinite()) continue;
     multiply(kept.H, span_of(x), span_of(y));
-    y += share * mean * x;
+    y += Eigen::Map<const Vector>(damping.data(), y.size()).cwiseProduct(x);
     if ((y - g).norm() <= 1e-6 * g.norm()) return true;
   }
   kept.usable = false;

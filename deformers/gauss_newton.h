@@ -21,6 +21,9 @@ struct GaussNewtonModel {
       try_step;                          ///< a trial x + scale * step; energy_of_trial goes with it
   std::function<double()> trial_energy;  ///< F(trial)
   std::function<void()> accept;          ///< x <- trial
+  /// How strongly each unknown of a block is held where nothing else determines it (`block` numbers, about 1): a free
+  /// part moves along those that are held least.
+  std::vector<double> held;
 };
 
 /// A matrix with its factor and the damping that it needed; kept between solves of the same pattern.

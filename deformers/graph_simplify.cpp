@@ -22,6 +22,9 @@ using Mesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 /// The shape's triangles as an OpenMesh mesh; counts those that it can't hold.
 Mesh mesh_of(const Shape& shape, std::size_t& refused) {
   Mesh mesh;
+  mesh.request_vertex_status();  // needed to delete, and its absence would end the program
+  mesh.request_edge_status();
+  mesh.request_face_status();
   std::vector<Mesh::VertexHandle> vertices;
   for (const Vec3& p : shape.positions) vertices.push_back(mesh.add_vertex({p.x(), p.y(), p.z()}));
   const std::vector<Index> triangles = triangles_of(shape.faces);

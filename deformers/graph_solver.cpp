@@ -79,6 +79,7 @@ GaussNewtonResult GraphSolver::minimise_rigid(const GaussNewtonOptions& options)
   model.try_step = [&](std::span<const double> step, double scale) { trial = energy_.step_rigid(x_, step, scale); };
   model.trial_energy = [&] { return energy_.energy(trial, true).total(); };
   model.accept = [&] { std::swap(x_, trial); };
+  model.held = {1, 1, 1, 1e-3, 1e-3, 1e-3};  // one handle alone carries its part along rather than turning it
   return gauss_newton(model, rigid_, options);
 }
 
@@ -98,6 +99,8 @@ GaussNewtonResult GraphSolver::minimise_affine(const GaussNewtonOptions& options
   model.try_step = [&](std::span<const double> step, double scale) { trial = energy_.step_affine(x_, Q, step, scale); };
   model.trial_energy = [&] { return energy_.energy(trial, false).total(); };
   model.accept = [&] { std::swap(x_, trial); };
+  model.held.assign(12, 1);
+  std::fill(model.held.begin() + 9, model.held.end(), 1e-3);
   return gauss_newton(model, affine_, options);
 }
 

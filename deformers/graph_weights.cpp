@@ -14,15 +14,17 @@ constexpr std::size_t block = 65536;
 
 /// Eq. 4 for one point with its k + 1 nearest nodes; writes k weights that sum to one.
 void weights_of(const double* distance, int k, double* w) {
+  // A node as far as d_max but for rounding has no influence: which of several such nodes is the k-th is an accident,
+  // and must not make an edge.
+  constexpr double rounding = 1e-9;
   const double d_max = distance[k];
   double sum = 0;
   for (int i = 0; i < k; ++i) {
     const double s = d_max > 0 ? 1 - distance[i] / d_max : 0;
-    w[i] = s * s;
+    w[i] = s > rounding ? s * s : 0;
     sum += w[i];
   }
-  // Equidistant up to rounding: differences of 1e-6 of the distance say nothing about which node is nearer.
-  for (int i = 0; i < k; ++i) w[i] = sum > 1e-12 ? w[i] / sum : 1.0 / k;
+  for (int i = 0; i < k; ++i) w[i] = sum > 0 ? w[i] / sum : 1.0 / k;
 }
 
 }  // namespace
