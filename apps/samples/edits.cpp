@@ -8,16 +8,16 @@ namespace sinew::samples {
 
 namespace {
 
-/// The giraffe keeps its feet where they are and lowers its head to the ground before them.
+/// The giraffe keeps its legs where they are and turns its head to look back.
 constexpr const char* scan = R"({ "sinew": 1,
   "layers": [ {
-    "name": "Graze",
+    "name": "Look back",
     "method": "graph",
     "settings": { "nodes": 226, "neighbours": 4 },
-    "fixed": [ { "box": [[-1, -0.1, -1], [1, 0.5, 1]] } ],
-    "handles": [ { "points": { "box": [[0.5, 1.83, -0.3], [0.95, 2.2, 0.3]] },
-                   "rotate": { "axis": [0, 0, 1], "degrees": -75, "about": [0.62, 1.9, 0] },
-                   "move": [0.42, -1.0, 0] } ]
+    "fixed": [ { "box": [[-1, -0.1, -1], [1, 0.6, 1]] } ],
+    "handles": [ { "points": { "box": [[0.5, 1.83, -0.3], [0.95, 2.3, 0.3]] },
+                   "rotate": { "axis": [0, 1, 0], "degrees": 155, "about": [0.585, 1.87, 0] },
+                   "move": [-0.55, -0.2, -0.35] } ]
   } ] }
 )";
 
