@@ -10,9 +10,12 @@
 #include <filesystem>
 
 #include "engine/geometry/error.h"
+#include "engine/io/bytes.h"
 #include "engine/io/obj.h"
 #include "engine/io/output_file.h"
 #include "engine/io/ply.h"
+#include "engine/io/scan_set.h"
+#include "engine/io/stl.h"
 
 namespace sinew::io {
 
@@ -23,6 +26,8 @@ const std::vector<Format>& table() {
   static const std::vector<Format> rows{
       {"PLY", {"ply"}, "ascii and binary; points, faces, strips; everything else is kept", read_ply, write_ply},
       {"OBJ", {"obj"}, "points, colours, normals, faces; everything else is kept", read_obj, write_obj},
+      {"STL", {"stl"}, "ascii and binary; a soup of triangles, each with its normal", read_stl, write_stl},
+      {"Scan set", {"conf"}, "scans in files of their own and the pose of each, as Stanford's", read_scan_set, nullptr},
   };
   return rows;
 }
@@ -50,6 +55,31 @@ struct InputFile {
     if (file >= 0) close(file);
   }
 };
+
+/// Several files, all of them ready before the first is written.
+WriteReport write_files(const std::filesystem::path& folder, const std::string& conf_name, const Shape& shape,
+                        bool force) {
+  WriteReport report;
+  const std::vector<NamedBytes> files = scan_set_files(shape, conf_name, report);
+  for (const NamedBytes& file : files) refuse_existing((folder / file.name).string(), force);
+  for (const NamedBytes& file : files) {
+    const std::filesystem::path path = folder / file.name;
+    std::error_code error;
+    if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), error);
+    if (error)
+      throw file_error(path.parent_path().string(), "a folder that can be made", sinew::quoted(error.message()));
+    save_bytes(path.string(), file.bytes, force);
+  }
+  return report;
+}
+
+/// The scans beside the .conf.
+WriteReport write_set(const std::string& path, const Shape& shape, bool force) {
+  if (path == "-") throw file_error(path, "a folder for the files of a scan set", "standard output");
+  if (shape.parts.empty()) throw file_error(path, "a scan set to write", std::string("a ") + representation(shape));
+  const std::filesystem::path p(path);
+  return write_files(p.parent_path(), p.filename().string(), shape, force);
+}
 
 }  // namespace
 
@@ -99,18 +129,26 @@ void save_bytes(const std::string& path, std::span<const std::byte> bytes, bool 
 
 std::shared_ptr<const Shape> read(const std::string& path, const ReadOptions& options, const std::string& as) {
   const Format& format = format_for(path, as);
-  auto shape = std::make_shared<Shape>(format.read(path, load_bytes(path), options));
+  std::vector<std::byte> bytes = load_bytes(path);
+  if (as_text(bytes).starts_with("version https://git-lfs"))
+    throw file_error(path, format.name + " data", "a Git LFS pointer (the file itself was not downloaded)");
+  auto shape = std::make_shared<Shape>(format.read(path, std::move(bytes), options));
   set_origin(*shape);
   return shape;
 }
 
 WriteReport write(const std::string& path, const Shape& shape, bool force, const std::string& as) {
   const Format& format = format_for(path, as);
-  if (format.write == nullptr) throw file_error(path, "a format that can be written", format.name);
+  if (format.write == nullptr) return write_set(path, shape, force);
   refuse_existing(path, force);
   WriteReport report;
   save_bytes(path, format.write(path, shape, report), force);
   return report;
+}
+
+WriteReport write_parts(const std::string& folder, const Shape& shape, bool force) {
+  if (shape.parts.empty()) throw file_error(folder, "a scan set to write", std::string("a ") + representation(shape));
+  return write_files(folder, "", shape, force);
 }
 
 }  // namespace sinew::io

@@ -1,20 +1,17 @@
 #include "engine/io/ply.h"
 
 #include <array>
+#include <cmath>
 
 #include "engine/io/ply_content.h"
 #include "engine/io/ply_values.h"
+#include "engine/io/text_patch.h"
 
 namespace sinew::io {
 
 namespace {
 
 constexpr std::size_t chunk_rows = 1 << 16;
-
-/// Tells the caller of the reader how far it is, and hears whether to go on.
-void tell(const ReadOptions& options, std::size_t at, std::size_t size) {
-  if (options.progress && !options.progress(static_cast<double>(at) / static_cast<double>(size))) throw Cancelled{};
-}
 
 struct Reader {
   const std::string& path;
@@ -43,7 +40,7 @@ void read_points(Reader& reader, Values& values, const PlyElement& element) {
       values.end_row();
     }
     append_rows(layout, packed, reader.shape);
-    tell(reader.options, values.at(), reader.bytes().size());
+    report_progress(reader.options, values.at(), reader.bytes().size());
   }
 }
 
@@ -57,7 +54,7 @@ void read_fixed_points(Reader& reader, std::size_t at) {
   for (std::size_t first = 0; first < n; first += chunk_rows) {
     const std::size_t count = std::min(chunk_rows, n - first);
     append_rows(layout, rows.subspan(first * layout.stride, count * layout.stride), reader.shape);
-    tell(reader.options, at + (first + count) * layout.stride, reader.bytes().size());
+    report_progress(reader.options, at + (first + count) * layout.stride, reader.bytes().size());
   }
 }
 
@@ -76,6 +73,7 @@ void read_polygon(Reader& reader, Values& values, const PlyProperty& property) {
   Faces& faces = reader.shape.faces;
   const std::size_t before = faces.points.size();
   for (std::uint64_t i = 0; i < n; ++i) faces.points.push_back(read_corner(reader, values, property.type));
+  if (faces.points.size() > 0xfffffffe) throw values.error("at most 4294967294 corners of faces", "more");
   if (n >= 3) {
     faces.offsets.push_back(static_cast<Index>(faces.points.size()));
   } else {
@@ -133,7 +131,7 @@ void read_rows(Reader& reader, Values& values, const PlyElement& element) {
       }
     }
     values.end_row();
-    if (row % chunk_rows == chunk_rows - 1) tell(reader.options, values.at(), reader.bytes().size());
+    if (row % chunk_rows == chunk_rows - 1) report_progress(reader.options, values.at(), reader.bytes().size());
   }
 }
 
@@ -178,6 +176,36 @@ void read_ascii(Reader& reader) {
                                  " bytes after the last element are kept but not read.");
 }
 
+/// Positions of an ascii file that are declared float are read as doubles first: text may hold more. Where a float
+/// would lose more than it can have been written from (float_limit), they stay doubles.
+void widen(PlyHeader& header) {
+  if (header.encoding != PlyEncoding::Ascii) return;
+  PlyElement& vertices = header.elements[header.vertex];
+  const auto is_position = [](const PlyProperty& p) { return p.name == "x" || p.name == "y" || p.name == "z"; };
+  for (const PlyProperty& p : vertices.properties)
+    if (is_position(p) && p.type != Type::Float32) return;
+  for (PlyProperty& p : vertices.properties)
+    if (is_position(p)) p.type = Type::Float64;
+  header.widened = true;
+}
+
+void narrow(Reader& reader) {
+  if (!reader.content.header.widened) return;
+  constexpr double loss = 1e-5;
+  const auto as_float = [](double x) { return as_read(x, Type::Float32); };
+  for (const Vec3& p : reader.shape.positions)
+    for (int c = 0; c < 3; ++c)
+      if (std::abs(p[c]) >= float_limit && std::abs(p[c] - as_float(p[c])) > loss) {
+        reader.shape.notes.push_back(
+            "The coordinates are declared float but have more digits: they are kept as double.");
+        return;
+      }
+  reader.content.layout.narrow = true;
+  reader.content.layout.position_type = Type::Float32;
+  reader.shape.position_type = Type::Float32;
+  for (Vec3& p : reader.shape.positions) p = p.unaryExpr(as_float);
+}
+
 void add_notes(Reader& reader) {
   for (const PlyProperty& property : reader.content.header.vertices().properties)
     if (property.list)
@@ -204,12 +232,18 @@ Shape read_ply(const std::string& path, std::vector<std::byte> bytes, const Read
   auto content = std::make_shared<PlyContent>();
   content->bytes = std::move(bytes);
   content->header = parse_ply_header(path, as_text(content->bytes));
+  constexpr std::uint64_t most = 0xfffffffe;
+  if (content->header.vertices().count > most)
+    throw text_error(path, content->header.lines, 0, "at most 4294967294 points",
+                     std::to_string(content->header.vertices().count));
+  widen(content->header);
   content->layout = layout_of(content->header);
   Shape shape;
   shape.attributes = content->layout.attributes;
   shape.position_type = content->layout.position_type;
   Reader reader{path, options, *content, shape};
   content->header.encoding == PlyEncoding::Ascii ? read_ascii(reader) : read_binary(reader);
+  narrow(reader);
   add_notes(reader);
   content->faces = fingerprint(shape.faces);
   shape.content = std::move(content);

@@ -52,8 +52,6 @@ class HeaderParser {
   void magic() {
     const Token token = cursor_.token();
     if (token.text == "ply") return end_of_line();
-    if (text_.starts_with("version https://git-lfs"))
-      throw file_error(path_, "a PLY file", "a Git LFS pointer to it (the file itself was not downloaded)");
     throw text_error(path_, 1, 1, "\"ply\"",
                      text_.empty() ? "an empty file" : quoted(token.text.empty() ? text_.substr(0, 8) : token.text));
   }

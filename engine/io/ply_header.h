@@ -37,6 +37,8 @@ struct PlyHeader {
   std::int64_t lines = 0;    ///< of the header
   std::size_t comments = 0;  ///< lines of comment and obj_info
 
+  bool widened = false;  ///< x, y, z are said to be Float64 here but are text that is declared float
+
   const PlyElement& vertices() const { return elements[vertex]; }
   bool swap() const;  ///< binary data are not in this machine's byte order
 };

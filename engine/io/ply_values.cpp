@@ -13,7 +13,7 @@ std::string range_of(Type type) {
       return "a whole number from " + std::to_string(std::numeric_limits<T>::lowest()) + " to " +
              std::to_string(std::numeric_limits<T>::max());
     } else {
-      return std::string("a ") + ply_name_of(type);
+      return "a number";
     }
   });
 }

@@ -162,6 +162,10 @@ void append_positions(const PlyVertices& layout, const PlyColumn& column, std::s
   });
 }
 
+double as_coordinate(const PlyVertices& layout, double x) {
+  return layout.narrow ? static_cast<double>(static_cast<float>(x)) : x;
+}
+
 void patch_positions(const PlyVertices& layout, const PlyColumn& column, std::span<std::byte> rows, double origin,
                      std::span<const Vec3> in) {
   with_type(column.type, [&](auto t) {
@@ -169,8 +173,8 @@ void patch_positions(const PlyVertices& layout, const PlyColumn& column, std::sp
     std::byte* at = rows.data() + column.offset;
     for (const Vec3& p : in) {
       const double now = p[column.component];
-      if (!same_coordinate(static_cast<double>(load<T>(at, layout.swap)), origin, now))
-        store(at, rounded<T>(now + origin), layout.swap);
+      const double file = as_coordinate(layout, static_cast<double>(load<T>(at, layout.swap)));
+      if (!same_coordinate(file, origin, now)) store(at, rounded<T>(as_coordinate(layout, now + origin)), layout.swap);
       at += layout.stride;
     }
   });

@@ -26,6 +26,7 @@ struct PlyVertices {
   Type position_type = Type::Float32;
   std::size_t stride = 0;  ///< bytes of a row of a binary file without lists
   bool swap = false;
+  bool narrow = false;  ///< coordinates are text that is parsed as Float64, then rounded to float
 };
 
 PlyVertices layout_of(const PlyHeader& header);

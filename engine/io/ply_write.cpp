@@ -32,7 +32,7 @@ struct Span {
 };
 
 /// Walks the points of a file whose rows have no fixed size. For each value that differs calls
-/// replace(span, type, value in this machine's byte order), in the order of the file.
+/// replace(span, column, value in this machine's byte order), in the order of the file.
 template <class Values, class Replace>
 void for_changes(const PlyContent& content, const Shape& shape, Values& values, const Replace& replace) {
   const PlyElement& element = content.header.vertices();
@@ -60,13 +60,15 @@ void for_changes(const PlyContent& content, const Shape& shape, Values& values, 
       for (std::size_t c = 0; c < columns; ++c) {
         const std::size_t at = i * layout.stride + layout.columns[c].offset, size = size_of(layout.columns[c].type);
         if (layout.columns[c].attribute != PlyColumn::unused && std::memcmp(&before[at], &now[at], size) != 0)
-          replace(spans[i * columns + c], layout.columns[c].type, &now[at]);
+          replace(spans[i * columns + c], layout.columns[c], &now[at]);
       }
   }
 }
 
-std::string to_text(Type type, const std::byte* value) {
-  return with_type(type, [value](auto t) {
+std::string to_text(const PlyVertices& layout, const PlyColumn& column, const std::byte* value) {
+  if (column.attribute == PlyColumn::position && layout.narrow)
+    return shortest(static_cast<float>(load<double>(value, false)));
+  return with_type(column.type, [value](auto t) {
     const auto x = load<decltype(t)>(value, false);
     if constexpr (std::is_integral_v<decltype(t)>) {
       return std::to_string(x);
@@ -86,9 +88,9 @@ std::vector<std::byte> patched_text(const std::string& path, const PlyContent& c
                content.bytes.begin() + static_cast<std::ptrdiff_t>(end));
   };
   PlyText values(path, text, content.vertices_at, content.vertices_line);
-  for_changes(content, shape, values, [&](Span span, Type type, const std::byte* value) {
+  for_changes(content, shape, values, [&](Span span, const PlyColumn& column, const std::byte* value) {
     copy_to(span.begin);
-    const std::string number = to_text(type, value);
+    const std::string number = to_text(content.layout, column, value);
     const auto* begin = reinterpret_cast<const std::byte*>(number.data());
     out.insert(out.end(), begin, begin + number.size());
     copied = span.begin + span.size;
@@ -107,7 +109,7 @@ std::vector<std::byte> patched(const std::string& path, const PlyContent& conten
   }
   const bool swap = content.header.swap();
   PlyBinary values(path, content.bytes, content.vertices_at, swap);
-  for_changes(content, shape, values, [&](Span span, Type, const std::byte* value) {
+  for_changes(content, shape, values, [&](Span span, const PlyColumn&, const std::byte* value) {
     std::byte* at = out.data() + span.begin;
     std::memcpy(at, value, span.size);
     if (swap) std::reverse(at, at + span.size);
