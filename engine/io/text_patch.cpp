@@ -100,10 +100,14 @@ void TextPatch::set(std::size_t begin, std::string_view token, double now, Type 
     // The same subtraction as set_origin's: it holds for coordinates too that origin does not subtract from exactly.
     if (same(now, was - origin) || same(as_read(now + origin, type), was)) return;
   }
+  replace(begin, token.size(), NumberText(now + origin, type).text);
+}
+
+void TextPatch::replace(std::size_t begin, std::size_t size, std::string_view now) {
   CHECK(begin >= copied_, begin, copied_);
   append_text(out_, as_text(from_.subspan(copied_, begin - copied_)));
-  append_number(out_, now + origin, type);
-  copied_ = begin + token.size();
+  append_text(out_, now);
+  copied_ = begin + size;
 }
 
 std::vector<std::byte> TextPatch::finish() {

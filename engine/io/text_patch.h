@@ -64,9 +64,14 @@ class TextPatch {
     set(token.begin, token.text, now, type, origin);
   }
 
+  /// Replaces a token, whatever it is.
+  void replace(const Token& token, std::string_view now) { replace(token.begin, token.text.size(), now); }
+
   std::vector<std::byte> finish();
 
  private:
+  void replace(std::size_t begin, std::size_t size, std::string_view now);
+
   std::span<const std::byte> from_;
   std::vector<std::byte> out_;
   std::size_t copied_ = 0;  ///< bytes of from_ that are dealt with
