@@ -12,10 +12,13 @@
 #include "engine/geometry/error.h"
 #include "engine/io/bytes.h"
 #include "engine/io/obj.h"
+#include "engine/io/off.h"
 #include "engine/io/output_file.h"
+#include "engine/io/pcd.h"
 #include "engine/io/ply.h"
 #include "engine/io/scan_set.h"
 #include "engine/io/stl.h"
+#include "engine/io/xyz.h"
 
 namespace sinew::io {
 
@@ -26,6 +29,9 @@ const std::vector<Format>& table() {
   static const std::vector<Format> rows{
       {"PLY", {"ply"}, "ascii and binary; points, faces, strips; everything else is kept", read_ply, write_ply},
       {"OBJ", {"obj"}, "points, colours, normals, faces; everything else is kept", read_obj, write_obj},
+      {"OFF", {"off"}, "points, colours, normals, faces; everything else is kept", read_off, write_off},
+      {"XYZ", {"xyz", "asc", "txt", "pts"}, "rows of numbers; columns by name or by value", read_xyz, write_xyz},
+      {"PCD", {"pcd"}, "ascii, binary, compressed; all fields; everything else is kept", read_pcd, write_pcd},
       {"STL", {"stl"}, "ascii and binary; a soup of triangles, each with its normal", read_stl, write_stl},
       {"Scan set", {"conf"}, "scans in files of their own and the pose of each, as Stanford's", read_scan_set, nullptr},
   };
