@@ -1,0 +1,60 @@
+#pragma once
+/// Marks and motions as functions on a Layer: what the user does to fixed points and handles, as plain data. Indices
+/// are points of the input; world coordinates are relative to the input's origin.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "apps/editor/point_set.h"
+#include "engine/document/project.h"
+#include "engine/document/selection.h"
+#include "engine/document/workspace.h"
+
+namespace sinew::editor {
+
+enum class Mark { Free, Fixed, Handle };
+
+/// A rotation about `pivot`, then a move. World coordinates.
+struct RigidMotion {
+  Vec3 axis = Vec3::UnitZ();  ///< unit
+  double degrees = 0;
+  Vec3 pivot = Vec3::Zero();
+  Vec3 move = Vec3::Zero();
+  Vec3 operator()(const Vec3& p) const;
+};
+
+/// Points of each selection of a layer, as indices: what a Selector says.
+struct LayerPoints {
+  std::vector<std::vector<Index>> fixed;    ///< of each of Layer::fixed
+  std::vector<std::vector<Index>> handles;  ///< of each of Layer::handles
+};
+LayerPoints points_of(const document::Layer& layer, document::Selector& selector);
+
+/// Marks `points`: they leave what they were in; a handle without points goes. Fixed points that are given as indices
+/// are kept as one selection. Handle makes one new handle with `motion` (that keeps the points where they are). Free of
+/// points that are already free changes nothing.
+document::Layer marked(const document::Layer& layer, const LayerPoints& points, const PointSet& set, Mark mark,
+                       const document::Motion& motion = {});
+
+document::Layer without_handle(const document::Layer& layer, std::size_t handle);
+
+/// `before`, then `by`, as few members as can be: a move stays a move, turns about one axis add their degrees.
+/// `centre`: mean of the handle's points where the layer starts from, world; `origin`: the input's.
+document::Motion moved(const document::Motion& before, const RigidMotion& by, const Vec3& centre, const Vec3& origin);
+
+/// The rigid motion that takes `from` nearest to `to` in least squares; exactly none where they are equal within
+/// `tolerance`. Same sizes, at least one.
+document::Motion rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to, double tolerance, const Vec3& origin);
+
+/// Points of the input after the first layers of an answer: all results whose `layer` is below `end`. indices: which.
+std::vector<Vec3> bent(const Shape& input, std::span<const document::LayerResult> layers, std::size_t end,
+                       std::span<const Index> indices);
+/// All of them; out: n.
+void bend_all(const Shape& input, std::span<const document::LayerResult> layers, std::span<Vec3> out);
+
+/// Bits of shared.h (mark_handle 1, mark_fixed 2, mark_rigid 4, mark_selected 8) of each point; n.
+std::vector<std::uint8_t> mark_bits(const LayerPoints& points, const PointSet& selection);
+
+}  // namespace sinew::editor

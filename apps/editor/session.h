@@ -1,0 +1,266 @@
+#pragma once
+/// Session: the one object that the window shows: the input, what the user made of it (History of Project), the present
+/// selection, and the newest answer of the solver. The window calls everything from its one thread, and poll() once a
+/// frame; reading, writing and solving happen on threads of the session's own, whose results poll() takes in. No call
+/// waits for them.
+///
+/// Coordinates are relative to the input's origin, which is the scene's. All functions that edit do nothing while no
+/// input is open (input() == nullptr); a bad argument of the user's (an impossible setting) becomes a notice.
+///
+/// What is shown at rest is the canonical answer: the one that `sinew deform INPUT --edit SAVED` gives, to rounding.
+/// After a drag the edit is solved once from rest. Where that ends elsewhere than the drag did (another minimum), the
+/// drag's pose is stored as Layer::start and solved from there; the shape on the screen then stays where the user
+/// brought it, and so does the saved file. The same holds after undo and redo.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/editor/background.h"
+#include "apps/editor/figures.h"
+#include "apps/editor/marks.h"
+#include "apps/editor/point_set.h"
+#include "engine/document/history.h"
+#include "engine/document/solver_thread.h"
+#include "engine/geometry/bounds.h"
+
+namespace sinew::editor {
+
+enum class Severity { Hint, Info, Warning, Error };
+struct Notice {
+  Severity severity = Severity::Info;
+  std::string text;  ///< a sentence
+};
+
+/// Long work, to show with its progress and a Cancel.
+struct Job {
+  std::string what;      ///< "Reading bunny.ply"
+  double fraction = -1;  ///< 0..1; below 0: unknown
+  double seconds = 0;    ///< so far
+  bool can_cancel = false;
+};
+
+/// What poll() or an edit changed since the last poll(): what the window must hand to the device again.
+struct Changed {
+  bool input = false;    ///< another shape: all buffers
+  bool weights = false;  ///< skinning weights of shown()
+  bool pose = false;     ///< poses of shown(), and with them bent_positions()
+  bool marks = false;    ///< point_marks(): marks or selection
+  bool project = false;  ///< layers, history, names: panels, title
+  bool any() const { return input || weights || pose || marks || project; }
+};
+
+struct HandleView {
+  Vec3 target = Vec3::Zero();    ///< mean of where its points are to be
+  Mat3 axes = Mat3::Identity();  ///< its own axes: turned as the handle was
+  std::size_t points = 0;
+};
+
+class Session {
+ public:
+  /// `methods` must outlive the session (sinew::methods()). `wake` is called from other threads when poll() has
+  /// something to take.
+  explicit Session(std::span<const Method> methods, std::function<void()> wake = {});
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  Changed poll();
+
+  // Files
+
+  /// Opens a shape, or an EDIT.json together with its "inputs" (an edit without inputs is laid on the present shape).
+  /// What is open stays until the new one is there, and stays if it can't be read (a notice). Replaces a running open.
+  void open(const std::string& path);
+  /// Shows a shape that is already there, under a name.
+  void adopt(std::shared_ptr<const Shape> shape, const std::string& path, document::Project project = {});
+  void close();
+
+  /// Writes the edit (with the input's path) as soon as the answer is settled. Empty path: where it was read or saved.
+  void save_edit(const std::string& path = {});
+  /// Writes the bent shape, as soon as the answer is settled. `force` replaces an existing file; without, it is a
+  /// notice.
+  void export_shape(const std::string& path, bool force = false);
+
+  std::optional<Job> job() const;  ///< what runs now: reading, writing, or preparing a layer
+  void cancel_job();
+
+  bool has_input() const { return input_ != nullptr; }
+  const std::shared_ptr<const Shape>& input() const { return input_; }
+  const std::string& input_path() const { return input_path_; }
+  const std::string& edit_path() const { return edit_path_; }     ///< empty: never saved
+  bool dirty() const;                                             ///< differs from what is on the disk
+  const std::vector<std::string>& lost() const { return lost_; }  ///< what the last export's format could not hold
+
+  // What is shown
+  // ------------------------------------------------------------------------------------------------------
+
+  /// Results of the layers that are on, lowest first: weights and pose of each. With one layer the device can bend the
+  /// rest shape itself (set_weights, pose_points); with several, hand it bent_positions(). Empty: the rest shape.
+  const std::vector<document::LayerResult>& shown() const { return shown_; }
+  /// n positions, bent on the CPU when asked for and then kept until the pose changes.
+  std::span<const Vec3> bent_positions();
+  /// Changes with every change of bent_positions().
+  std::uint64_t bent_version() const { return bent_version_; }
+  /// Bits of shared.h a point; n.
+  const std::vector<std::uint8_t>& point_marks();
+  const Bounds& rest_bounds() const { return bounds_; }
+  Bounds bent_bounds();
+  Bounds selection_bounds();  ///< bent; of the chosen handle where nothing is selected; empty where neither is
+
+  /// Solving, or a settling answer is still to come. While it is false after an edit, the canonical answer is shown.
+  bool solving() const;
+  const StatusFigures& figures() const { return figures_; }
+  /// What the user should know now: "A handle needs something fixed ...". Computed from the state, not kept.
+  std::vector<Notice> hints() const;
+  /// Notices in the order they came; taken out by this call.
+  std::vector<Notice> take_notices();
+  void notify(Severity severity, std::string text);
+
+  // Selection
+
+  const PointSet& selection() const { return selection_; }
+  /// `touched` of n points; points that are not finite are left out.
+  void select(const PointSet& touched, SelectMode mode);
+  void select_all();
+  void select_none();
+  void invert_selection();
+  /// These need the neighbourhood, which is found in the background at the first of them (a job); done when it is
+  /// there.
+  void grow_selection();
+  void shrink_selection();
+  void select_connected();
+  /// The points of a handle, of the fixed.
+  void select_handle(std::size_t handle);
+  void select_fixed();
+
+  // Edits: each is one step of history
+  // ---------------------------------------------------------------------------------
+
+  const document::Project& project() const { return history_.present(); }
+  const document::History& history() const { return history_; }
+  std::span<const Method> methods() const { return methods_; }
+
+  std::size_t chosen_layer() const { return layer_; }
+  void choose_layer(std::size_t layer);
+  /// Null where there is none.
+  const document::Layer* layer() const;
+
+  void mark_selection(
+      Mark mark);  ///< in the chosen layer (made where there is none); a new handle becomes the chosen one
+  void delete_handle(std::size_t handle);
+  void reset_handle(std::size_t handle);  ///< back to where its points rest
+
+  void add_layer(const std::string& method);  ///< above all others; chosen
+  void remove_layer(std::size_t layer);
+  void rename_layer(std::size_t layer, const std::string& name);
+  void toggle_layer(std::size_t layer);
+  void set_method(std::size_t layer, const std::string& method);
+  /// A number or a choice; the standard value leaves the layer. Impossible ones become a notice.
+  void set_setting(std::size_t layer, const std::string& name, const std::variant<double, std::string>& value);
+  /// As it stands in the layer, or the standard.
+  double setting(std::size_t layer, const Setting& setting) const;
+
+  void undo();
+  void redo();
+  void go_to(std::size_t state);
+
+  // Handles and drags
+
+  /// Of the chosen layer, in the order of Layer::handles; while a drag runs, with the drag.
+  std::vector<HandleView> handles();
+  std::optional<std::size_t> chosen_handle() const { return handle_; }
+  void choose_handle(std::optional<std::size_t> handle) { handle_ = handle; }
+
+  /// False where there is no such handle. Ends a drag that runs.
+  bool begin_drag(std::size_t handle);
+  /// The motion since begin_drag, not since the last call. Asks the solver for an interactive answer.
+  void drag_to(const RigidMotion& motion);
+  /// One step of history (none where nothing moved); the final answer is asked for.
+  void end_drag();
+  void cancel_drag();
+  bool dragging() const { return drag_.has_value(); }
+
+ private:
+  struct Drag {
+    std::size_t handle = 0;
+    document::Project before, now;
+    Vec3 centre = Vec3::Zero();  ///< mean of the handle's points where the layer starts
+  };
+  /// The end of a drag on its way to the canonical answer.
+  struct Settling {
+    enum class Step { FromRest, FromDrag } step = Step::FromRest;
+    std::size_t layer = 0;                                  ///< that was dragged
+    std::vector<document::LayerResult> dragged, from_rest;  ///< shown when the drag ended; the first answer
+  };
+  struct Opened;
+  /// What waits until the answer is settled.
+  struct Waiting {
+    enum class What { Save, Export } what = What::Save;
+    std::string path;
+    bool force = false;
+  };
+
+  void open_now(const std::string& path);
+  void show(Opened opened);
+  void apply(document::Project project, const std::string& label);
+  void project_changed();
+  void ask(SolveOptions::Quality quality, const document::Project& project);
+  void take_answer(document::SolveAnswer answer);
+  void show_answer(document::SolveAnswer answer);
+  void settle(document::SolveAnswer answer);
+  void amend(document::Project project);
+  bool settled() const;
+  void start_waiting();
+  void save_now(const Waiting& waiting);
+  void export_now(const Waiting& waiting);
+  void with_neighbourhood(std::function<void()> then);
+  void take_background();
+  const LayerPoints& layer_points();
+  std::vector<Vec3> handle_rest_centres();
+  void selection_changed();
+  bool refuse(const std::function<void()>& check);
+
+  std::span<const Method> plain_methods_;
+  std::vector<Method> methods_;  ///< repeatable
+  std::function<void()> wake_;
+
+  std::shared_ptr<const Shape> input_;
+  std::string input_path_, edit_path_;
+  Bounds bounds_;
+  document::History history_{document::Project{}};
+  document::Project saved_;
+  std::vector<std::string> lost_;
+  std::size_t layer_ = 0;
+  std::optional<std::size_t> handle_;
+  PointSet selection_, finite_;
+  std::vector<Notice> notices_;
+  Changed changed_;
+
+  std::optional<Drag> drag_;
+  std::optional<Settling> settling_;
+  std::uint64_t ticket_ = 0;        ///< of the newest request
+  std::uint64_t final_ticket_ = 0;  ///< of the newest one that asked for Quality::Final
+  bool answered_ = true;            ///< the newest final request has its finished answer
+  std::vector<document::LayerResult> shown_;
+  std::vector<Vec3> bent_;
+  bool bent_ready_ = false;
+  std::uint64_t bent_version_ = 1;
+  std::vector<std::uint8_t> marks_;
+  bool marks_ready_ = false;
+  StatusFigures figures_;
+
+  std::shared_ptr<document::Selector> selector_;
+  std::optional<LayerPoints> layer_points_;  ///< of the chosen layer of the present project
+  std::optional<std::vector<Vec3>> handle_centres_;
+  std::shared_ptr<const Neighbourhood> neighbourhood_;
+  std::vector<std::function<void()>> after_neighbourhood_;
+  std::optional<std::string> next_open_;
+  std::vector<Waiting> waiting_;
+  std::unique_ptr<Background> background_;
+  std::unique_ptr<document::SolverThread> solver_;  ///< last: it goes first
+};
+
+}  // namespace sinew::editor

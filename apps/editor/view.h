@@ -1,0 +1,40 @@
+#pragma once
+/// View: what the window shows of a session and what the mouse does in it, as plain data: a camera, the tool in hand,
+/// the switches of the tool bar. No part of a project.
+
+#include <optional>
+#include <string>
+
+#include "apps/editor/manipulation.h"
+#include "apps/editor/navigation.h"
+#include "apps/editor/tools.h"
+
+namespace sinew::editor {
+
+/// Click is part of all of them: a press and release on one place.
+enum class Tool { Select, Move, Rotate, Box, Lasso, Brush };
+enum class Space { World, Local };
+
+struct View {
+  gpu::Camera camera;
+  gpu::UpAxis up = gpu::UpAxis::Y;
+  CameraGlide glide;
+  Eigen::Vector2d size{1280, 720};  ///< of the picture, pixels
+  Eigen::Vector2d mouse{0, 0};      ///< pixels
+
+  Tool tool = Tool::Box;
+  Depth depth = Depth::VisibleOnly;
+  Space space = Space::World;
+  double brush_radius = 24;  ///< pixels
+
+  double point_size = 2;  ///< pixels
+  bool show_graph = false, show_rest = false, show_ground = true;
+  std::string color_by;  ///< an attribute's name; empty: plain
+
+  /// A drag by gizmo or by G and R that runs now.
+  std::optional<Manipulation> manipulation;
+  /// Begun by keys: the mouse moves it without a button, a click confirms.
+  bool modal = false;
+};
+
+}  // namespace sinew::editor
