@@ -1,0 +1,6 @@
+# sinew-bench: the papers' tables.
+find_package(benchmark REQUIRED)
+file(GLOB SINEW_BENCH_SOURCES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/benchmarks/*.cpp)
+add_executable(sinew-bench ${SINEW_BENCH_SOURCES})
+target_link_libraries(sinew-bench PRIVATE sinew_document sinew_deformers sinew_samples benchmark::benchmark fmt::fmt
+                                          nlohmann_json::nlohmann_json)

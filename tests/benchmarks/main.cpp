@@ -1,0 +1,264 @@
+// sinew-bench [--json FILE]: times the graph on the cases of the papers' tables with Google Benchmark and prints the
+// papers' figures beside today's. Absolute times are of this machine and this hour; ratios to REF carry over.
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "deformers/graph.h"
+#include "engine/geometry/parallel.h"
+#include "engine/geometry/skin.h"
+#include "engine/geometry/topology.h"
+#include "tests/benchmarks/cases.h"
+
+namespace sinew::benchmarks {
+
+namespace {
+
+/// A row of Table 1 of Sumner, Schmid and Pauly 2007: its size, and milliseconds of an iteration ("Solve") and of
+/// moving all points ("Def") on a 2.4 GHz Core 2 Duo, one core.
+struct Row {
+  const char* name;
+  std::size_t points;
+  int nodes;
+  std::size_t handles;
+  double paper_solve, paper_def;
+};
+constexpr Row table1[] = {
+    {"Raptor", 85792, 226, 27, 20, 22},    {"Giraffe", 79226, 221, 13, 17, 20},   {"Giraffe", 79226, 221, 670, 20, 20},
+    {"Giraffe", 79226, 221, 1900, 25, 20}, {"Giraffe", 79226, 221, 5000, 38, 20}, {"Dino", 10002, 222, 540, 19, 3},
+    {"Dino", 10002, 425, 540, 41, 3},      {"Dino", 10002, 1048, 540, 148, 3},
+};
+
+constexpr double drag_share = 0.01;  ///< of the diagonal, one mouse move
+
+std::string key(const Row& row, const char* what) {
+  return fmt::format("{}/{}/{}/{}/{}", row.name, row.points, row.nodes, row.handles, what);
+}
+
+GraphOptions options_of(int nodes, bool plain = false) {
+  GraphOptions options;
+  options.nodes = nodes;
+  options.plain = plain;
+  return options;
+}
+
+/// One mouse move: all iterations from the last solution, and all points moved.
+void drag_step(benchmark::State& state, const Row& row) {
+  const Case c = animal_case(row.points, row.handles);
+  const auto deformer = make_graph_deformer(c.shape, options_of(row.nodes));
+  SolveOptions quick;
+  quick.quality = SolveOptions::Quality::Interactive;
+  std::vector<Vec3> bent(c.shape->size());
+  deformer->solve(dragged(c, 0, drag_share), quick);
+  int step = 0, iterations = 0;
+  for (auto _ : state) {
+    const SolveReport report = deformer->solve(dragged(c, ++step, drag_share), quick);
+    CHECK(report.status == Status::Converged, name_of(report.status), report.message);
+    iterations += report.iterations;
+    skin_points(deformer->weights(), deformer->pose(), c.shape->positions, bent);
+    benchmark::DoNotOptimize(bent.data());
+  }
+  state.counters["iterations"] = iterations / static_cast<double>(std::max(1, step));
+}
+
+/// The paper's iteration: 12 unknowns a node, a new factor each time.
+void plain_iteration(benchmark::State& state, const Row& row) {
+  const Case c = animal_case(row.points, row.handles);
+  const auto deformer = make_graph_deformer(c.shape, options_of(row.nodes, true));
+  double seconds = 0;
+  int iterations = 0, step = 0;
+  deformer->solve(dragged(c, 0, drag_share), {});
+  for (auto _ : state) {
+    const SolveReport report = deformer->solve(dragged(c, ++step, drag_share), {});
+    state.SetIterationTime(report.solve_seconds / std::max(1, report.iterations));
+    seconds += report.solve_seconds;
+    iterations += report.iterations;
+  }
+}
+
+/// The final answer after the mouse is let go: from the last dragged pose to the minimum of the paper's energy.
+void release(benchmark::State& state, const Row& row) {
+  const Case c = animal_case(row.points, row.handles);
+  const auto deformer = make_graph_deformer(c.shape, options_of(row.nodes));
+  SolveOptions quick;
+  quick.quality = SolveOptions::Quality::Interactive;
+  int step = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    const Constraints at = dragged(c, 3 * ++step, drag_share);
+    deformer->solve(at, quick);
+    state.ResumeTiming();
+    deformer->solve(at, {});
+  }
+}
+
+void skinning(benchmark::State& state, const Row& row, int threads) {
+  const Case c = animal_case(row.points, row.handles);
+  const auto deformer = make_graph_deformer(c.shape, options_of(row.nodes));
+  deformer->solve(dragged(c, 5, drag_share), {});
+  std::vector<Vec3> bent(c.shape->size());
+  const int before = thread_count();
+  set_thread_count(threads);
+  for (auto _ : state) {
+    skin_points(deformer->weights(), deformer->pose(), c.shape->positions, bent);
+    benchmark::DoNotOptimize(bent.data());
+  }
+  set_thread_count(before);
+  state.counters["influences"] = static_cast<double>(deformer->weights().influences());
+}
+
+/// A cold solve of a Botsch-Sorkine sample, from rest to the minimum.
+void cold_solve(benchmark::State& state, const std::string& name, int nodes) {
+  const BenchmarkEdit edit = benchmark_edit(name);
+  const auto deformer = make_graph_deformer(edit.shape, options_of(nodes));
+  deformer->solve(edit.constraints, {});
+  SolveReport report;
+  for (auto _ : state) {
+    deformer->reset();
+    report = deformer->solve(edit.constraints, {});
+  }
+  const Quality quality = quality_of(*edit.shape, skin(*edit.shape, deformer->weights(), deformer->pose()).positions);
+  state.counters["iterations"] = report.iterations;
+  state.counters["energy"] = report.energy.front().second;
+  state.counters["edge_rms"] = quality.edge_rms;
+  state.counters["edge_max"] = quality.edge_max;
+  state.counters["volume"] = quality.volume_change;
+  state.counters["handle_rms"] = report.handle_rms;
+  state.counters["nodes"] = report.counts.at(1).second;
+}
+
+void make(benchmark::State& state, const Row& row) {
+  const Case c = animal_case(row.points, row.handles);
+  for (auto _ : state) benchmark::DoNotOptimize(make_graph_deformer(c.shape, options_of(row.nodes)));
+}
+
+/// Medians over repetitions, by the name of the benchmark.
+class Medians : public benchmark::BenchmarkReporter {
+ public:
+  struct Figure {
+    std::vector<double> milliseconds;
+    benchmark::UserCounters counters;
+    double median() const {
+      std::vector<double> sorted = milliseconds;
+      std::sort(sorted.begin(), sorted.end());
+      return sorted.empty() ? 0 : sorted[sorted.size() / 2];
+    }
+  };
+  std::map<std::string, Figure> figures;
+
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) {
+      if (run.run_type != Run::RT_Iteration) continue;
+      Figure& figure = figures[run.run_name.function_name];
+      figure.milliseconds.push_back(run.GetAdjustedRealTime());
+      figure.counters = run.counters;
+    }
+  }
+};
+
+template <class... Arguments>
+void add(const std::string& name, void (*body)(benchmark::State&, Arguments...), std::decay_t<Arguments>... arguments) {
+  auto* b = benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { body(state, arguments...); });
+  b->Unit(benchmark::kMillisecond)->Repetitions(5)->MinTime(0.1)->UseRealTime();
+}
+
+void register_all() {
+  benchmark::RegisterBenchmark("REF",
+                               [](benchmark::State& state) {
+                                 for (auto _ : state) state.SetIterationTime(ref_seconds());
+                               })
+      ->Unit(benchmark::kMillisecond)
+      ->Repetitions(5)
+      ->Iterations(1)
+      ->UseManualTime();
+  for (const Row& row : table1) {
+    add<const Row&>(key(row, "drag"), drag_step, row);
+    add<const Row&>(key(row, "release"), release, row);
+    add<const Row&, int>(key(row, "skin 1 thread"), skinning, row, 1);
+    benchmark::RegisterBenchmark(key(row, "plain").c_str(),
+                                 [&row](benchmark::State& state) { plain_iteration(state, row); })
+        ->Unit(benchmark::kMillisecond)
+        ->Repetitions(3)
+        ->Iterations(3)
+        ->UseManualTime();
+  }
+  add<const Row&>(key(table1[1], "make"), make, table1[1]);
+  add<const std::string&, int>("plane/288", cold_solve, "plane", 288);
+  for (const char* name : {"plane", "bar", "cactus", "cylinder"})
+    add<const std::string&, int>(fmt::format("{}/300", name), cold_solve, name, 300);
+}
+
+void print_tables(std::map<std::string, Medians::Figure>& figures) {
+  const double ref = figures["REF"].median();
+  fmt::print("REF {:.0f} ms: Eigen SimplicialLDLT, analyse and factorize, 7-point Laplacian of 30^3\n\n", ref);
+  fmt::print(
+      "Embedded deformation, Table 1 (paper: 2.4 GHz Core 2 Duo, ms). Today in ms: the paper's iteration with a new "
+      "factor;\n"
+      "one mouse move of 1 % of the diagonal (all iterations and all points); the final answer on release; all points "
+      "once, one thread.\n");
+  fmt::print("{:<8} {:>7} {:>6} {:>6} | {:>6} {:>5} | {:>9} {:>9} {:>8} {:>6} {:>8} {:>7} {:>9}\n", "model", "points",
+             "nodes", "csts", "Solve", "Def", "iteration", "mouse move", "/ REF", "iters", "release", "points",
+             "M infl./s");
+  for (const Row& row : table1) {
+    auto& drag = figures[key(row, "drag")];
+    auto& skin = figures[key(row, "skin 1 thread")];
+    fmt::print(
+        "{:<8} {:>7} {:>6} {:>6} | {:>6.0f} {:>5.0f} | {:>9.2f} {:>10.2f} {:>8.5f} {:>6.1f} {:>8.1f} {:>7.2f} "
+        "{:>9.0f}\n",
+        row.name, row.points, row.nodes, row.handles, row.paper_solve, row.paper_def,
+        figures[key(row, "plain")].median(), drag.median(), drag.median() / ref, drag.counters["iterations"].value,
+        figures[key(row, "release")].median(), skin.median(), skin.counters["influences"].value / skin.median() / 1e3);
+  }
+  fmt::print("\nMaking a deformer (221 nodes, 79,226 points: sampling, binding, edges): {:.0f} ms\n\n",
+             figures[key(table1[1], "make")].median());
+  fmt::print("Botsch-Sorkine samples, cold from rest to the minimum\n");
+  fmt::print("{:<10} {:>6} {:>6} {:>8} {:>8} {:>10} {:>9} {:>9} {:>9} {:>11}\n", "shape", "nodes", "iters", "ms",
+             "/ REF", "energy", "edge rms", "edge max", "volume", "handle rms");
+  for (const char* name : {"plane/288", "plane/300", "bar/300", "cactus/300", "cylinder/300"}) {
+    auto& f = figures[name];
+    fmt::print("{:<10} {:>6.0f} {:>6.0f} {:>8.1f} {:>8.4f} {:>10.6f} {:>9.4f} {:>9.3f} {:>8.1f}% {:>11.2g}\n",
+               std::string(name).substr(0, std::string(name).find('/')), f.counters["nodes"].value,
+               f.counters["iterations"].value, f.median(), f.median() / ref, f.counters["energy"].value,
+               f.counters["edge_rms"].value, f.counters["edge_max"].value, 100 * f.counters["volume"].value,
+               f.counters["handle_rms"].value);
+  }
+}
+
+void write_json(const std::string& path, const std::map<std::string, Medians::Figure>& figures) {
+  nlohmann::ordered_json out;
+  for (const auto& [name, figure] : figures) {
+    out[name]["milliseconds"] = figure.median();
+    for (const auto& [counter, value] : figure.counters) out[name][counter] = value.value;
+  }
+  std::ofstream file(path);
+  file << out.dump(2) << '\n';
+  if (!file.flush()) fmt::print(stderr, "sinew-bench: {}: expected a file that can be written, found an error\n", path);
+}
+
+}  // namespace
+
+}  // namespace sinew::benchmarks
+
+int main(int argc, char** argv) {
+  using namespace sinew::benchmarks;
+  std::string json;
+  if (argc == 3 && std::strcmp(argv[1], "--json") == 0) {
+    json = argv[2];
+  } else if (argc != 1) {
+    fmt::print(stderr, "usage: sinew-bench [--json FILE]\n");
+    return 2;
+  }
+  register_all();
+  Medians medians;
+  benchmark::RunSpecifiedBenchmarks(&medians);
+  print_tables(medians.figures);
+  if (!json.empty()) write_json(json, medians.figures);
+  return 0;
+}
