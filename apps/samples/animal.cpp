@@ -133,7 +133,8 @@ Cells cells_at(const Vec3& p) {
   Cells cells;
   const Vec3 corner = p.array().floor();
   for (int i = 0; i < 27; ++i) {
-    const Vec3 cell = corner + Vec3(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+    const int dx = i % 3 - 1, dy = i / 3 % 3 - 1, dz = i / 9 - 1;
+    const Vec3 cell = corner + Vec3(dx, dy, dz);
     const auto key = [](double x) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(x)); };
     const Random random(key(cell.x()), key(cell.y()), key(cell.z()));
     const Vec3 point = cell + Vec3(random.uniform(0), random.uniform(1), random.uniform(2));

@@ -57,7 +57,7 @@ void make(const Sample& sample, const Options& options) {
   std::cerr << file << '\n';
 }
 
-int run(const Options& options) {
+void make_all(const Options& options) {
   std::error_code error;
   std::filesystem::create_directories(options.folder, error);
   if (error) throw file_error(options.folder, "a folder that can be made", error.message());
@@ -65,14 +65,9 @@ int run(const Options& options) {
     const bool named = std::find(options.names.begin(), options.names.end(), sample.name) != options.names.end();
     if (named || (options.names.empty() && sample.make != nullptr)) make(sample, options);
   }
-  return 0;
 }
 
-}  // namespace
-}  // namespace sinew::samples
-
-int main(int argc, char** argv) {
-  using namespace sinew::samples;
+int run(int argc, char** argv) {
   Options options;
   CLI::App app("Makes sample shapes and their edits in a folder, over what is there by the same names.",
                "sinew-samples");
@@ -89,9 +84,19 @@ int main(int argc, char** argv) {
   app.footer("Names:\n" + help);
   try {
     app.parse(argc, argv);
-    return run(options);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  }
+  make_all(options);
+  return 0;
+}
+
+}  // namespace
+}  // namespace sinew::samples
+
+int main(int argc, char** argv) {
+  try {
+    return sinew::samples::run(argc, argv);
   } catch (const sinew::InputError& error) {
     std::cerr << "sinew-samples: " << error.what() << '\n';
     return 3;

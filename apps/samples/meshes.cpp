@@ -56,7 +56,8 @@ Shape bar() {
   const auto vertex = [&](const std::array<int, 3>& at) {
     const auto [entry, fresh] = vertices.try_emplace(at, static_cast<Index>(shape.size()));
     if (fresh)
-      shape.positions.push_back(rounded((at[0] - cells[0] / 2) * cell, at[1] * cell, (at[2] - cells[2] / 2) * cell));
+      shape.positions.push_back(
+          rounded((at[0] - 0.5 * cells[0]) * cell, at[1] * cell, (at[2] - 0.5 * cells[2]) * cell));
     return entry->second;
   };
   for (int axis = 0; axis < 3; ++axis) {

@@ -138,7 +138,7 @@ void add_air(Grid& grid, int row, int column, const Random& random) {
 /// where it has too few.
 Vec3 grid_normal(const Grid& grid, int row, int column) {
   const Vec3 p = grid.point(row, column);
-  const Vec3 back = -grid.rays.direction(row, column);
+  Vec3 back = -grid.rays.direction(row, column);
   const double gate = 4 * grid.rays.du.norm();
   const auto slope = [&](int dr, int dc) -> Vec3 {
     Vec3 ends[2] = {p, p};

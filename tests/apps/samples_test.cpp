@@ -7,12 +7,14 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
+#include <memory>
 
 #include "apps/samples/dense.h"
 #include "apps/samples/edits.h"
 #include "apps/samples/meshes.h"
 #include "apps/samples/scanner.h"
+#include "engine/document/edit.h"
+#include "engine/document/selection.h"
 #include "engine/geometry/parallel.h"
 #include "engine/geometry/topology.h"
 #include "engine/io/io.h"
@@ -51,18 +53,6 @@ double volume6(const Shape& shape) {
     sum += shape.positions[c[0]].cross(shape.positions[c[1]]).dot(shape.positions[c[2]]);
   }
   return sum;
-}
-
-bool in_box(const nlohmann::json& selection, const Vec3& p) {
-  const auto& box = selection.at("box");
-  for (int c = 0; c < 3; ++c)
-    if (p[c] < box[0][c].get<double>() || p[c] > box[1][c].get<double>()) return false;
-  return true;
-}
-
-std::size_t count_in(const nlohmann::json& selection, const Shape& shape) {
-  return static_cast<std::size_t>(std::count_if(shape.positions.begin(), shape.positions.end(),
-                                                [&](const Vec3& p) { return in_box(selection, p); }));
 }
 
 }  // namespace
@@ -146,14 +136,21 @@ TEST(Samples, EditsTakeHoldOfTheirShapes) {
                                             {"cylinder", cylinder()}};
   for (const auto& [name, shape] : shapes) {
     SCOPED_TRACE(name);
-    const auto edit = nlohmann::json::parse(edit_of(name));
-    const auto& layer = edit.at("layers").at(0);
-    EXPECT_EQ(layer.at("method"), "graph");
-    const std::size_t fixed = count_in(layer.at("fixed").at(0), shape);
-    const std::size_t handle = count_in(layer.at("handles").at(0).at("points"), shape);
-    EXPECT_GT(fixed, 50u);
-    EXPECT_GT(handle, 50u);
-    EXPECT_LT(fixed + handle, shape.size() * 3 / 5);
+    const document::Project edit = document::parse_edit(name + ".edit.json", edit_of(name));
+    ASSERT_EQ(edit.layers.size(), 1u);
+    const document::Layer& layer = edit.layers[0];
+    EXPECT_EQ(layer.method, "graph");
+    document::Selector selector(std::make_shared<const Shape>(shape));
+    const Constraints constraints = selector.constraints(layer, shape.positions);
+    ASSERT_EQ(constraints.handles.size(), 1u);
+    const Handle& handle = constraints.handles[0];
+    EXPECT_GT(constraints.fixed.size(), 50u);
+    EXPECT_GT(handle.points.size(), 50u);
+    EXPECT_LT(constraints.fixed.size() + handle.points.size(), shape.size() * 3 / 5);
+    double farthest = 0;
+    for (std::size_t i = 0; i < handle.points.size(); ++i)
+      farthest = std::max(farthest, (handle.targets[i] - shape.positions[handle.points[i]]).norm());
+    EXPECT_GT(farthest, 0.3);
   }
 }
 
