@@ -1,16 +1,11 @@
 #include "engine/io/io.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include "engine/geometry/error.h"
 #include "engine/io/bytes.h"
+#include "engine/io/input_file.h"
 #include "engine/io/obj.h"
 #include "engine/io/off.h"
 #include "engine/io/output_file.h"
@@ -50,17 +45,6 @@ const Format& format_for(const std::string& path, const std::string& as) {
   if (as.empty()) throw file_error("-", "the format of the stream, by an extension", "none");
   return format_of("-." + as);
 }
-
-/// Closes when it goes.
-struct InputFile {
-  int file;
-  explicit InputFile(int f) : file(f) {}
-  InputFile(const InputFile&) = delete;
-  InputFile& operator=(const InputFile&) = delete;
-  ~InputFile() {
-    if (file >= 0) close(file);
-  }
-};
 
 /// Several files, all of them ready before the first is written.
 WriteReport write_files(const std::filesystem::path& folder, const std::string& conf_name, const Shape& shape,
@@ -107,22 +91,11 @@ const Format& format_of(const std::string& path) {
 }
 
 std::vector<std::byte> load_bytes(const std::string& path) {
-  const InputFile in(path == "-" ? dup(STDIN_FILENO) : open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  struct stat status;
-  if (in.file < 0 || fstat(in.file, &status) != 0)
-    throw file_error(path, "a file that can be read", sinew::quoted(std::strerror(errno)));
-  if (S_ISDIR(status.st_mode)) throw file_error(path, "a file", "a folder");
+  InputFile in(path);
   // One byte more than the file has: its end is seen without another buffer.
-  std::vector<std::byte> bytes((S_ISREG(status.st_mode) ? static_cast<std::size_t>(status.st_size) : 1 << 20) + 1);
+  std::vector<std::byte> bytes(static_cast<std::size_t>(in.size().value_or(1 << 20)) + 1);
   std::size_t size = 0;
-  for (;;) {
-    if (size == bytes.size()) bytes.resize(2 * size);
-    const ssize_t got = ::read(in.file, bytes.data() + size, std::min(bytes.size() - size, std::size_t{1} << 30));
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw file_error(path, "a file that can be read", sinew::quoted(std::strerror(errno)));
-    if (got == 0) break;
-    size += static_cast<std::size_t>(got);
-  }
+  while ((size += in.read(std::span(bytes).subspan(size))) == bytes.size()) bytes.resize(2 * size);
   bytes.resize(size);
   return bytes;
 }
