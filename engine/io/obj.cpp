@@ -18,6 +18,7 @@ struct ObjContent : FileContent {
   std::vector<std::byte> bytes;
   std::vector<std::size_t> points, normals;  ///< byte of the first number of each v, each vn
   std::size_t faces = 0, corners = 0;        ///< of the shape
+  std::size_t colors = 0, color_size = 0;    ///< points with a colour, numbers of one
 };
 
 /// The next token of a line; a backslash at the end of a line continues it on the next one.
@@ -202,6 +203,8 @@ class ObjReader {
     if (color_rows_.empty()) return;
     std::vector<std::string> fields = {"r", "g", "b", "a"};
     fields.resize(color_size_);
+    content_->colors = color_rows_.size();
+    content_->color_size = color_size_;
     Attribute color = number_attribute("color", fields, Kind::Color, color_precision_.type(), colors_);
     if (color_rows_.size() < shape_.size()) {
       color.points = color_rows_;
@@ -270,17 +273,19 @@ class ObjReader {
 };
 
 bool same_layout(const Shape& shape, const ObjContent& content) {
-  const Attribute* normal = shape.find("normal");
+  const Attribute *normal = shape.find("normal"), *color = shape.find("color");
   const std::size_t normals = normal && normal->components == 3 ? normal->count() : 0;
-  return content.points.size() == shape.size() && content.normals.size() == normals &&
+  const std::size_t colors = color ? color->count() : 0;
+  return content.points.size() == shape.size() && content.normals.size() == normals && content.colors == colors &&
+         (colors == 0 || content.color_size == static_cast<std::size_t>(color->components)) &&
          content.faces == shape.faces.size() && content.corners == shape.faces.points.size();
 }
 
 std::vector<std::byte> patched(const Shape& shape, const ObjContent& content) {
   TextPatch patch(content.bytes);
   TextCursor cursor("", as_text(content.bytes));
-  const Attribute* normal = shape.find("normal");
-  std::size_t i = 0, k = 0;
+  const Attribute *normal = shape.find("normal"), *color = shape.find("color");
+  std::size_t i = 0, k = 0, row = 0;
   while (i < content.points.size() || k < content.normals.size()) {
     const bool point =
         k == content.normals.size() || (i < content.points.size() && content.points[i] < content.normals[k]);
@@ -291,6 +296,10 @@ std::vector<std::byte> patched(const Shape& shape, const ObjContent& content) {
         patch.set(t, shape.positions[i][c], shape.position_type, shape.origin[c]);
       else
         patch.set(t, normal->number(k, c), normal->type);
+    }
+    if (point && color && row < color->count() && (color->per_point() || color->points[row] == i)) {
+      for (int c = 0; c < color->components; ++c) patch.set(next_token(cursor), color->number(row, c), color->type);
+      ++row;
     }
     ++(point ? i : k);
   }

@@ -9,9 +9,9 @@
 /// in the file; Shape::notes counts them. position_type is Float32 where that loses nothing (text_patch.h), otherwise
 /// Float64; normals and colours likewise.
 ///
-/// Written: for a shape that was read from OBJ and has as many points, normals and faces, the bytes of its file with
-/// those numbers of `v` and `vn` replaced that have changed, as the shortest text of the double or the float. For any
-/// other shape v (with colour), vn and f; a normal of several points is shared.
+/// Written: for a shape that was read from OBJ and has as many points, normals, colours and faces, the bytes of its
+/// file with those numbers of `v` and `vn` replaced that have changed, as the shortest text of the double or the float.
+/// For any other shape v (with colour), vn and f; a normal of several points is shared.
 ///
 /// Refused (InputError): no v line, a number that is none, an index that is none, is 0 or has no point.
 

@@ -13,6 +13,7 @@ struct OffContent : FileContent {
   std::vector<std::byte> bytes;
   std::vector<std::size_t> points;     ///< byte of the first number of each point
   bool normals = false;                ///< three numbers behind the coordinates
+  int color_size = 0;                  ///< numbers behind those
   std::size_t faces = 0, corners = 0;  ///< of the shape
 };
 
@@ -148,6 +149,7 @@ class OffReader {
     if (columns_.normal)
       shape_.attributes.push_back(
           number_attribute("normal", {"nx", "ny", "nz"}, Kind::Normal, normal_precision_.type(), normals_));
+    content_->color_size = columns_.color;
     if (columns_.color > 0) {
       std::vector<std::string> fields = {"r", "g", "b", "a"};
       fields.resize(static_cast<std::size_t>(columns_.color));
@@ -221,11 +223,13 @@ std::vector<std::byte> patched(const Shape& shape, const OffContent& content) {
   TextPatch patch(content.bytes);
   TextCursor cursor("", as_text(content.bytes));
   const Attribute* normal = content.normals ? shape.find("normal") : nullptr;
+  const Attribute* color = shape.find("color");
   for (std::size_t i = 0; i < shape.size(); ++i) {
     cursor.seek(content.points[i]);
     for (int c = 0; c < 3; ++c)
       patch.set(cursor.next('#'), shape.positions[i][c], shape.position_type, shape.origin[c]);
     for (int c = 0; normal && c < 3; ++c) patch.set(cursor.next('#'), normal->number(i, c), normal->type);
+    for (int c = 0; color && c < content.color_size; ++c) patch.set(cursor.next('#'), color->number(i, c), color->type);
   }
   return patch.finish();
 }

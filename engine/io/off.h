@@ -9,8 +9,8 @@
 /// the length of the first point's line, become "color": UInt8 where all are whole numbers of 0 to 255 and one is above
 /// 1, otherwise fractions. position_type is Float32 where that loses nothing (text_patch.h), otherwise Float64.
 ///
-/// Written: for a shape that was read from OFF and has as many points, normals and faces, the bytes of its file with
-/// those coordinates and normals replaced that have changed. For any other shape a new file with what OFF can hold.
+/// Written: for a shape that was read from OFF and has as many points, normals, colours and faces, the bytes of its
+/// file with those of their numbers replaced that have changed. For any other shape a new file with what OFF can hold.
 ///
 /// Refused (InputError): binary files, 4OFF, nOFF, counts that cannot fit into the file, numbers that are none, indices
 /// without a point, a file that ends early.

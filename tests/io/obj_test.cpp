@@ -101,6 +101,12 @@ TEST(Obj, KeepsColorsOfAllPointsAndOfSome) {
             std::vector<std::string>{"Kept in the OBJ file only: 2 points with unknown numbers behind them."});
 }
 
+TEST(Obj, ReplacesColorsThatChanged) {
+  Shape some = read_text(read_obj, "v 0 0 0\nv 1 0 0 1 2 3 # one\nv 2 0 0 1.0 2 3\n");
+  some.find("color")->set_number(1, 1, 0.5);
+  EXPECT_EQ(write_text(write_obj, some), "v 0 0 0\nv 1 0 0 1 2 3 # one\nv 2 0 0 1.0 0.5 3\n");
+}
+
 TEST(Obj, KeepsAMillimetreFarFromTheOrigin) {
   Shape shape = read_text(read_obj, "v 5400000 500000 12\nv 5400001 500001 13\nv 5400002 500000 12\nf 1 2 3\n");
   EXPECT_EQ(shape.position_type, Type::Float64);

@@ -44,9 +44,12 @@ TEST(Off, ReplacesOnlyTokensThatChanged) {
   shape.positions[0].x() = 0.75;
   shape.positions[2].z() = 4;
   shape.find("normal")->set_number(1, 2, -1);
+  shape.find("color")->set_number(1, 2, 99);
   std::string expected = everything;
-  for (const auto& [old, now] :
-       {std::pair<std::string, std::string>{"0.50 ", "0.75 "}, {"-1e-2", "4"}, {" 1.0 ", " -1 "}}) {
+  for (const auto& [old, now] : {std::pair<std::string, std::string>{"0.50 ", "0.75 "},
+                                 {"-1e-2", "4"},
+                                 {" 1.0 ", " -1 "},
+                                 {" -1  255 0 10", " -1  255 0 99"}}) {
     ASSERT_NE(expected.find(old), std::string::npos) << old;
     expected.replace(expected.find(old), old.size(), now);
   }
