@@ -1,10 +1,13 @@
 #version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shared.h"
 
+layout(push_constant, scalar) uniform Constants { DrawConstants c; };
 layout(location = 0) in vec4 color;
 layout(location = 0) out vec4 out_color;
 
 void main() {
   const vec2 from_middle = gl_PointCoord - 0.5;
-  if (dot(from_middle, from_middle) > 0.25) discard;
+  if (c.size > square_size && dot(from_middle, from_middle) > 0.25) discard;
   out_color = color;
 }

@@ -110,16 +110,19 @@ SHARED_CONST float mark_strength = 0.62f;
 // A scan without normals is lit by its depth alone.
 SHARED_CONST float unlit = 0.80f;
 
-// Eye-dome lighting [Boucheny 2009]: how much darker a pixel is, from the sum of max(0, log2 depth - log2 depth of a
-// neighbour) over edl_taps neighbours on a ring.
+// Eye-dome lighting [Boucheny 2009]: how much darker a pixel is, from the sum over the neighbours on a ring of how much
+// nearer they are, log2(depth here / depth there), each at most edl_limit so that an outline stays a line. With reversed
+// depth z = near / depth that logarithm is (z_there - z_here) / (z_here ln 2) to first order, which is what is used.
 SHARED_CONST int edl_taps = 8;
-SHARED_CONST float edl_limit = 0.04f;  // of one neighbour: an outline stays a line
-SHARED_FUNCTION float edl_shade(float sum, float strength) {
-#ifdef __cplusplus
-  using std::exp;
-#endif
-  return exp(-strength * sum);
+SHARED_CONST float edl_limit = 0.04f;
+SHARED_CONST float inverse_ln2 = 1.442695f;
+// exp(-t) where it is small, and cheaper.
+SHARED_FUNCTION float edl_shade(float t) {
+  return 1.0f / (1.0f + t + 0.5f * t * t);
 }
+
+// Points up to this size are squares: a disc could miss every pixel.
+SHARED_CONST float square_size = 1.5f;
 
 #ifdef __cplusplus
 }  // namespace sinew::gpu::shared

@@ -42,27 +42,15 @@ std::uint32_t ghost_color(const Look& look, double opacity) {
 
 void draw_cloud(VkCommandBuffer commands, const Pipeline& pipeline, const Scene& scene, const CloudItem& item,
                 VkExtent2D extent) {
-  DrawConstants constants = draw_constants(scene, *item.points, extent);
-  constants.size = static_cast<float>(item.size);
-  if (item.ghost > 0) {
-    constants.flags |= shared::draw_ghost;
-    constants.ghost_color = ghost_color(scene.look, item.ghost);
-  }
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
-  push_constants(commands, pipeline, constants);
+  push_constants(commands, pipeline, cloud_constants(scene, item, extent));
   draw_vertices(commands, item);
 }
 
 void draw_mesh(VkCommandBuffer commands, const Pipeline& pipeline, const Scene& scene, const MeshItem& item,
                VkExtent2D extent) {
-  DrawConstants constants = draw_constants(scene, *item.points, extent);
-  if (item.flat || !item.points->has_normals) constants.flags |= shared::draw_flat;
-  if (item.ghost > 0) {
-    constants.flags |= shared::draw_ghost;
-    constants.ghost_color = ghost_color(scene.look, item.ghost);
-  }
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
-  push_constants(commands, pipeline, constants);
+  push_constants(commands, pipeline, mesh_constants(scene, item, extent));
   draw_triangles(commands, item);
 }
 
@@ -127,11 +115,27 @@ DrawConstants draw_constants(const Scene& scene, const Points& points, VkExtent2
   return constants;
 }
 
+shared::DrawConstants cloud_constants(const Scene& scene, const CloudItem& item, VkExtent2D extent) {
+  DrawConstants constants = draw_constants(scene, *item.points, extent);
+  constants.size = static_cast<float>(item.size);
+  if (item.ghost > 0) constants.flags |= shared::draw_ghost;
+  constants.ghost_color = ghost_color(scene.look, item.ghost);
+  return constants;
+}
+
+DrawConstants mesh_constants(const Scene& scene, const MeshItem& item, VkExtent2D extent) {
+  DrawConstants constants = draw_constants(scene, *item.points, extent);
+  if (item.flat || !item.points->has_normals) constants.flags |= shared::draw_flat;
+  if (item.ghost > 0) constants.flags |= shared::draw_ghost;
+  constants.ghost_color = ghost_color(scene.look, item.ghost);
+  return constants;
+}
+
 shared::ComposeConstants compose_constants(const Scene& scene, VkExtent2D extent) {
   shared::ComposeConstants constants{};
   constants.top = packed(scene.look.backdrop_top);
   constants.bottom = packed(scene.look.backdrop_bottom);
-  constants.outline = packed(scene.look.outline);
+  constants.outline = scene.outline_selected ? packed(scene.look.outline) : 0;
   constants.edl_strength = static_cast<float>(scene.look.edl_strength);
   constants.edl_radius = static_cast<float>(scene.look.edl_radius);
   constants.size = {static_cast<float>(extent.width), static_cast<float>(extent.height)};

@@ -14,6 +14,8 @@ ShapePipelines create_shape_pipelines(const Device& device, VkRenderPass pass, V
 
 /// Constants of points drawn in this scene: matrices in the points' own coordinates, light, marks.
 shared::DrawConstants draw_constants(const Scene& scene, const Points& points, VkExtent2D extent);
+shared::DrawConstants cloud_constants(const Scene& scene, const CloudItem& item, VkExtent2D extent);
+shared::DrawConstants mesh_constants(const Scene& scene, const MeshItem& item, VkExtent2D extent);
 shared::ComposeConstants compose_constants(const Scene& scene, VkExtent2D extent);
 
 std::uint32_t packed(Color color);

@@ -24,7 +24,7 @@ inline constexpr VkFormat offscreen_format = VK_FORMAT_R8G8B8A8_UNORM;
 
 struct Offscreen {
   VkExtent2D extent{0, 0};
-  Owned<VkRenderPass> pass;
+  Owned<VkRenderPass> cover, keep;
   Image image;
   Owned<VkFramebuffer> framebuffer;
   Buffer readback;
@@ -32,12 +32,13 @@ struct Offscreen {
 
 /// InputError where a side is 0 or above the device's limit (16,384 on most).
 Offscreen create_offscreen(const Device& device, VkExtent2D extent);
-void begin_target(VkCommandBuffer commands, const Offscreen& target);  ///< begins its render pass
-/// After the render pass, in a pass of its own: the picture goes to mapped memory; then finish() and read_picture().
-void record_readback(VkCommandBuffer commands, const Offscreen& target);
-Picture read_picture(const Offscreen& target);
+FinalTarget final_target(const Offscreen& offscreen);
+
+/// After end_picture, in a pass of its own: the picture goes to mapped memory; then submit, finish and read_picture.
+void record_readback(VkCommandBuffer commands, const Offscreen& offscreen);
+Picture read_picture(const Offscreen& offscreen);
 
 /// All of it: records, runs, waits, reads. `renderer` is of offscreen_format.
-Picture render_picture(const Device& device, Renderer& renderer, const Offscreen& target, const Scene& scene);
+Picture render_picture(const Device& device, Renderer& renderer, const Offscreen& offscreen, const Scene& scene);
 
 }  // namespace sinew::gpu

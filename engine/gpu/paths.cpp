@@ -59,7 +59,7 @@ Paths measure_paths(const Device& device) {
   paths.device_skin_ms = best_milliseconds(device, true);
   paths.cpu_skin_ms = best_milliseconds(device, false);
   paths.skin_on_device = paths.device_skin_ms < paths.cpu_skin_ms;
-  paths.splat_on_device = !device.software;
+  paths.draw_on_device = !device.software;
   paths.sentence =
       device.name.substr(0, device.name.find(" (")) + (paths.skin_on_device ? ", GPU skinning" : ", CPU skinning");
   return paths;

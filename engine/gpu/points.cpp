@@ -153,7 +153,7 @@ std::vector<Eigen::Vector3d> read_normals(const Device& device, const Points& po
 
 Triangles create_triangles(const Device& device, std::span<const std::uint32_t> indices) {
   CHECK(indices.size() % 3 == 0, indices.size());
-  return {indices.size() / 3, filled<std::uint32_t>(device, true, indices)};
+  return {indices.size() / 3, filled<std::uint32_t>(device, !device.software, indices)};
 }
 
 }  // namespace sinew::gpu

@@ -60,7 +60,7 @@ void set_positions(const Device& device, Points& points, std::span<const Eigen::
 std::vector<Eigen::Vector3d> read_positions(const Device& device, const Points& points);
 std::vector<Eigen::Vector3d> read_normals(const Device& device, const Points& points);
 
-/// Triangles over points, 3 indices each.
+/// Triangles over points, 3 indices each; mapped where the device is the processor.
 struct Triangles {
   std::size_t count = 0;  ///< triangles
   Buffer indices;

@@ -3,6 +3,7 @@
 #include "engine/geometry/check.h"
 #include "engine/gpu/draw_overlay.h"
 #include "engine/gpu/draw_shapes.h"
+#include "engine/gpu/raster.h"
 #include "engine/gpu/targets.h"
 
 namespace sinew::gpu {
@@ -16,6 +17,8 @@ struct Renderer {
     ShapePipelines pipelines;
   } plain, smooth;
   Targets targets;
+  RasterScratch raster;
+  Buffer raster_colors, raster_depths;  ///< the CPU's picture on its way to the target and to `targets.depth`
   Owned<VkRenderPass> final_pass;
   Owned<VkSampler> sampler;
   Owned<VkDescriptorSetLayout> set_layout;
@@ -84,22 +87,79 @@ void use_targets(const Device& device, Renderer& renderer, VkExtent2D extent, Vk
 
 Renderer::Shapes create_shapes(const Device& device, VkSampleCountFlagBits samples) {
   Renderer::Shapes shapes;
-  shapes.pass = create_shape_pass(device, samples, Start::Clear);
+  shapes.pass = create_shape_pass(device, samples);
   shapes.pipelines = create_shape_pipelines(device, shapes.pass, samples);
   return shapes;
 }
 
+/// Draws the shapes into the renderer's own images.
+void record_shapes(const Device& device, Renderer& renderer, Frame& frame, const Scene& scene, VkExtent2D extent) {
+  const VkSampleCountFlagBits samples = scene.smooth_edges ? renderer.most_samples : VK_SAMPLE_COUNT_1_BIT;
+  use_targets(device, renderer, extent, samples);
+  const Renderer::Shapes& shapes = samples == VK_SAMPLE_COUNT_1_BIT ? renderer.plain : renderer.smooth;
+  VkCommandBuffer commands = begin_pass(device, frame);
+  begin_shape_pass(commands, shapes.pass, renderer.targets);
+  draw_backdrop(commands, shapes.pipelines, scene, extent);
+  draw_clouds(commands, shapes.pipelines, scene, extent);
+  draw_meshes(commands, shapes.pipelines, scene, extent);
+  vkCmdEndRenderPass(commands);
+  end_pass(device, frame);
+}
+
+/// The CPU's picture, copied: colours into the target itself, depths to where lines and dots look for them.
+void record_raster(const Device& device, Renderer& renderer, Frame& frame, const Scene& scene,
+                   const FinalTarget& target) {
+  const VkExtent2D extent = target.extent;
+  use_targets(device, renderer, extent, VK_SAMPLE_COUNT_1_BIT);
+  const std::size_t pixels = std::size_t{extent.width} * extent.height;
+  grow(device, renderer.raster_colors, 4 * pixels, Memory::Upload);
+  grow(device, renderer.raster_depths, 4 * pixels, Memory::Upload);
+  RasterOutput out;
+  out.colors = static_cast<std::uint32_t*>(renderer.raster_colors.mapped);
+  out.depths = static_cast<float*>(renderer.raster_depths.mapped);
+  out.blue_first = target.format == VK_FORMAT_B8G8R8A8_UNORM;
+  raster_scene(renderer.raster, scene, extent, out);
+
+  const Access before{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_COPY_BIT |
+                          VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                      VK_ACCESS_2_NONE};
+  const Access copied{VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT};
+  const Access drawn{VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+                     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+  const Access sampled{VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+  const VkImageLayout undefined = VK_IMAGE_LAYOUT_UNDEFINED, to_copy = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+  const VkImage depths = renderer.targets.depth.handle;
+  VkCommandBuffer commands = begin_pass(device, frame);
+  image_barrier(commands, depths, depth_format, before, undefined, copied, to_copy);
+  copy_from_buffer(commands, renderer.raster_depths, 0, depths, depth_format, extent);
+  image_barrier(commands, depths, depth_format, copied, to_copy, sampled, depth_layout);
+  image_barrier(commands, target.image, target.format, before, undefined, copied, to_copy);
+  copy_from_buffer(commands, renderer.raster_colors, 0, target.image, target.format, extent);
+  image_barrier(commands, target.image, target.format, copied, to_copy, drawn,
+                VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+  end_pass(device, frame);
+}
+
+void compose(Renderer& renderer, VkCommandBuffer commands, const Scene& scene, VkExtent2D extent) {
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, renderer.compose.handle);
+  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, renderer.compose.layout, 0, 1, &renderer.images, 0,
+                          nullptr);
+  push_constants(commands, renderer.compose, compose_constants(scene, extent));
+  vkCmdDraw(commands, 3, 1, 0, 0);
+}
+
 }  // namespace
 
-Owned<VkRenderPass> create_final_pass(const Device& device, VkFormat format, VkImageLayout layout) {
+Owned<VkRenderPass> create_final_pass(const Device& device, VkFormat format, Start start, VkImageLayout layout) {
   VkAttachmentDescription attachment{};
   attachment.format = format;
   attachment.samples = VK_SAMPLE_COUNT_1_BIT;
-  attachment.loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+  attachment.loadOp = start == Start::Keep ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
   attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
   attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
   attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-  attachment.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+  attachment.initialLayout =
+      start == Start::Keep ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_UNDEFINED;
   attachment.finalLayout = layout;
   const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
   VkSubpassDescription subpass{};
@@ -139,7 +199,7 @@ RendererHandle create_renderer(const Device& device, const Paths& paths, VkForma
   if (renderer->most_samples != VK_SAMPLE_COUNT_1_BIT) renderer->smooth = create_shapes(device, renderer->most_samples);
   create_descriptors(device, *renderer);
 
-  renderer->final_pass = create_final_pass(device, format, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+  renderer->final_pass = create_final_pass(device, format, Start::Cover, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
   DrawState compose;
   compose.vertex = "screen.vert";
   compose.fragment = "compose.frag";
@@ -150,30 +210,31 @@ RendererHandle create_renderer(const Device& device, const Paths& paths, VkForma
   return renderer;
 }
 
-void prepare_scene(const Device& device, Renderer& renderer, Frame& frame, const Scene& scene, VkExtent2D extent) {
+VkCommandBuffer begin_picture(const Device& device, Renderer& renderer, Frame& frame, const Scene& scene,
+                              const FinalTarget& target) {
   CHECK(!frame.pending);
-  const VkSampleCountFlagBits samples = scene.smooth_edges ? renderer.most_samples : VK_SAMPLE_COUNT_1_BIT;
-  use_targets(device, renderer, extent, samples);
+  const bool on_device = renderer.paths.draw_on_device || !can_raster(scene);
   write_overlay(device, renderer.overlay_data, scene);
-  const Renderer::Shapes& shapes = samples == VK_SAMPLE_COUNT_1_BIT ? renderer.plain : renderer.smooth;
+  if (on_device)
+    record_shapes(device, renderer, frame, scene, target.extent);
+  else
+    record_raster(device, renderer, frame, scene, target);
+
   VkCommandBuffer commands = begin_pass(device, frame);
-  begin_shape_pass(commands, shapes.pass, renderer.targets);
-  draw_backdrop(commands, shapes.pipelines, scene, extent);
-  draw_clouds(commands, shapes.pipelines, scene, extent);
-  draw_meshes(commands, shapes.pipelines, scene, extent);
-  vkCmdEndRenderPass(commands);
-  end_pass(device, frame);
+  VkRenderPassBeginInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO};
+  info.renderPass = on_device ? target.cover : target.keep;
+  info.framebuffer = target.framebuffer;
+  info.renderArea.extent = target.extent;
+  vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
+  set_viewport(commands, target.extent);
+  if (on_device) compose(renderer, commands, scene, target.extent);
+  draw_overlay(commands, renderer.overlay, renderer.overlay_data, renderer.images, scene, target.extent);
+  return commands;
 }
 
-void compose_scene(Renderer& renderer, VkCommandBuffer commands, const Scene& scene) {
-  const VkExtent2D extent = renderer.targets.extent;
-  set_viewport(commands, extent);
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, renderer.compose.handle);
-  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, renderer.compose.layout, 0, 1, &renderer.images, 0,
-                          nullptr);
-  push_constants(commands, renderer.compose, compose_constants(scene, extent));
-  vkCmdDraw(commands, 3, 1, 0, 0);
-  draw_overlay(commands, renderer.overlay, renderer.overlay_data, renderer.images, scene, extent);
+void end_picture(const Device& device, Frame& frame, VkCommandBuffer commands) {
+  vkCmdEndRenderPass(commands);
+  end_pass(device, frame);
 }
 
 }  // namespace sinew::gpu

@@ -89,6 +89,8 @@ struct Scene {
   std::vector<MeshItem> meshes;
   std::vector<Line> lines;
   std::vector<Dot> dots;
+  bool outline_selected =
+      false;                 ///< a line around points marked mark_selected; costs a little, so only where there are any
   bool smooth_edges = true;  ///< four samples a pixel where the device has them; false: faster
 };
 

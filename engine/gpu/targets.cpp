@@ -18,7 +18,6 @@ VkAttachmentDescription2 attachment(VkFormat format, VkSampleCountFlagBits sampl
   if (samples != VK_SAMPLE_COUNT_1_BIT)
     out.finalLayout =
         has_depth(format) ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-  if (load == VK_ATTACHMENT_LOAD_OP_LOAD) out.initialLayout = out.finalLayout;
   return out;
 }
 
@@ -67,17 +66,15 @@ Owned<VkRenderPass> create_pass(const Device& device, std::span<const VkAttachme
 
 }  // namespace
 
-Owned<VkRenderPass> create_shape_pass(const Device& device, VkSampleCountFlagBits samples, Start start) {
+Owned<VkRenderPass> create_shape_pass(const Device& device, VkSampleCountFlagBits samples) {
   const VkAttachmentReference2 color = reference(0, color_format), depth = reference(1, depth_format);
   VkSubpassDescription2 subpass{VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_2};
   subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
   subpass.colorAttachmentCount = 1;
   subpass.pColorAttachments = &color;
   subpass.pDepthStencilAttachment = &depth;
-  const bool keep = start == Start::Keep;
   // The backdrop covers all of the colour.
-  const VkAttachmentLoadOp load_color = keep ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-  const VkAttachmentLoadOp load_depth = keep ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_CLEAR;
+  const VkAttachmentLoadOp load_color = VK_ATTACHMENT_LOAD_OP_DONT_CARE, load_depth = VK_ATTACHMENT_LOAD_OP_CLEAR;
   if (samples == VK_SAMPLE_COUNT_1_BIT) {
     const VkAttachmentDescription2 attachments[] = {
         attachment(color_format, samples, load_color, VK_ATTACHMENT_STORE_OP_STORE),

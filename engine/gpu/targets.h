@@ -11,11 +11,9 @@ inline constexpr VkFormat depth_format = VK_FORMAT_D32_SFLOAT;      ///< reverse
 inline constexpr VkImageLayout color_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
 inline constexpr VkImageLayout depth_layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
 
-/// Draws over cleared images (depth 0, colour undefined) or over what is in them already.
-enum class Start { Clear, Keep };
-
-/// With four samples, colour (average) and depth (first sample) are resolved at the end; Start::Clear only.
-Owned<VkRenderPass> create_shape_pass(const Device& device, VkSampleCountFlagBits samples, Start start);
+/// Begins with depth 0 and undefined colours. With four samples, colour (average) and depth (first sample) are resolved
+/// at the end.
+Owned<VkRenderPass> create_shape_pass(const Device& device, VkSampleCountFlagBits samples);
 
 struct Targets {
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;

@@ -1,0 +1,298 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "engine/geometry/parallel.h"
+#include "engine/gpu/draw_shapes.h"
+#include "engine/gpu/raster.h"
+
+namespace sinew::gpu {
+namespace {
+
+using Eigen::Vector3f;
+using shared::DrawConstants;
+
+constexpr int pad = 8;                               ///< columns and rows around the padded depths
+constexpr int most_edl_radius = pad;                 ///< so that every neighbour is there
+constexpr std::size_t most_samples = 1 << 25;        ///< of a smoothed raster: above, one sample a pixel must do
+constexpr std::uint32_t selected_bit = 0x80000000u;  ///< alpha's highest bit, as the shaders use alpha 1
+
+Vector3f color_of(std::uint32_t rgba) {
+  return Vector3f(static_cast<float>(rgba & 255), static_cast<float>(rgba >> 8 & 255),
+                  static_cast<float>(rgba >> 16 & 255)) /
+         255.0f;
+}
+
+std::uint32_t packed_color(const Vector3f& color) {
+  const Vector3f scaled = (color.cwiseMax(0).cwiseMin(1) * 255.0f).array() + 0.5f;
+  return static_cast<std::uint32_t>(scaled.x()) | static_cast<std::uint32_t>(scaled.y()) << 8 |
+         static_cast<std::uint32_t>(scaled.z()) << 16;
+}
+
+/// What surface.glsl does.
+Vector3f to_eye(const DrawConstants& c, const Vector3f& position) {
+  return (c.eye.head<3>() - c.eye.w() * position).normalized();
+}
+
+float light_on(const DrawConstants& c, const Vector3f& normal, const Vector3f& eye) {
+  const float sky = (c.flags & shared::draw_z_up) != 0 ? normal.z() : normal.y();
+  return shared::surface_light(normal.dot(c.light), sky, normal.dot(eye));
+}
+
+Vector3f tinted(const DrawConstants& c, const PointColor& color) {
+  Vector3f out(color.r / 255.0f, color.g / 255.0f, color.b / 255.0f);
+  for (std::uint32_t k = 0; k < 3; ++k)
+    if ((color.marks >> k & 1) != 0) out += shared::mark_strength * (color_of(c.mark_colors[k]) - out);
+  return out;
+}
+
+struct Shaded {
+  Vector3f color;
+  bool selected = false;
+  float alpha = 1;
+};
+
+Shaded shade_point(const RasterItem& item, std::size_t i) {
+  const DrawConstants& c = item.constants;
+  if ((c.flags & shared::draw_ghost) != 0)
+    return {color_of(c.ghost_color), false, static_cast<float>(c.ghost_color >> 24) / 255.0f};
+  const PointColor& color = item.points->colors.as<PointColor>()[i];
+  float light = shared::unlit;
+  if ((c.flags & shared::draw_normals) != 0) {
+    const Vector3f normal = (item.rest ? item.points->rest_normals : item.points->normals).as<Vector3f>()[i];
+    const Vector3f eye = to_eye(c, (item.rest ? item.points->rest : item.points->positions).as<Vector3f>()[i]);
+    light = light_on(c, normal.dot(eye) < 0 ? Vector3f(-normal) : normal, eye);
+  }
+  return {tinted(c, color) * light, (color.marks & shared::mark_selected) != 0};
+}
+
+/// Weights of the corners at a pixel's centre, corrected for perspective (depth is one over the distance there).
+Vector3f corner_weights(const RasterItem& item, const std::uint32_t* corners, float x, float y) {
+  const Vector3f &a = item.projected[corners[0]], &b = item.projected[corners[1]], &c = item.projected[corners[2]];
+  const float ux = b.x() - a.x(), uy = b.y() - a.y(), vx = c.x() - a.x(), vy = c.y() - a.y();
+  const float inverse = 1 / (ux * vy - uy * vx);
+  const float v = ((x - a.x()) * vy - (y - a.y()) * vx) * inverse;
+  const float w = (ux * (y - a.y()) - uy * (x - a.x())) * inverse;
+  Vector3f weights(1 - v - w, v, w);
+  if (item.constants.eye.w() > 0) weights = weights.cwiseProduct(Vector3f(a.z(), b.z(), c.z()));
+  return weights / weights.sum();
+}
+
+Shaded shade_face(const RasterItem& item, std::size_t face, float x, float y) {
+  const DrawConstants& c = item.constants;
+  const std::uint32_t* corners = item.triangles->indices.as<std::uint32_t>().data() + 3 * face;
+  const Vector3f weights = corner_weights(item, corners, x, y);
+  const auto positions = (item.rest ? item.points->rest : item.points->positions).as<Vector3f>();
+  const auto colors = item.points->colors.as<PointColor>();
+  const Vector3f &p0 = positions[corners[0]], &p1 = positions[corners[1]], &p2 = positions[corners[2]];
+  const Vector3f eye = to_eye(c, weights[0] * p0 + weights[1] * p1 + weights[2] * p2);
+  Vector3f n = (p1 - p0).cross(p2 - p0).normalized();
+  if (n.dot(eye) < 0) n = -n;
+  Vector3f color(0, 0, 0), smooth(0, 0, 0);
+  float selected = 0;
+  for (int k = 0; k < 3; ++k) {
+    color += weights[k] * tinted(c, colors[corners[k]]);
+    selected += (colors[corners[k]].marks & shared::mark_selected) != 0 ? weights[k] : 0;
+  }
+  if ((c.flags & shared::draw_flat) == 0) {
+    const auto normals = (item.rest ? item.points->rest_normals : item.points->normals).as<Vector3f>();
+    for (int k = 0; k < 3; ++k) smooth += weights[k] * normals[corners[k]];
+    if (smooth.squaredNorm() > 0) n = smooth.dot(n) < 0 ? Vector3f(-smooth.normalized()) : smooth.normalized();
+  }
+  if ((c.flags & shared::draw_ghost) != 0) {
+    const float rim = 1 - std::abs(n.dot(eye));
+    return {color_of(c.ghost_color), false,
+            static_cast<float>(c.ghost_color >> 24) / 255.0f * (0.25f + 0.75f * rim * rim)};
+  }
+  return {color * light_on(c, n, eye), selected > 0.5f};
+}
+
+Shaded shade(std::span<const RasterItem> items, const RasterImage& image, std::size_t pixel) {
+  const std::uint32_t id = image.id(pixel);
+  std::size_t k = items.size() - 1;
+  while (items[k].first_id > id) --k;
+  const std::size_t element = id - items[k].first_id;
+  if (items[k].triangles == nullptr) return shade_point(items[k], element);
+  const auto width = static_cast<std::size_t>(image.width);
+  return shade_face(items[k], element, static_cast<float>(pixel % width) + 0.5f,
+                    static_cast<float>(pixel / width) + 0.5f);
+}
+
+struct Raster {
+  const RasterImage& solid;
+  std::span<const RasterItem> items;
+  const RasterImage* ghost;
+  std::span<const RasterItem> ghost_items;
+  shared::ComposeConstants constants;
+  int scale;
+  std::vector<float>& depths;  ///< padded
+  std::uint32_t* colors;       ///< of the raster's size
+
+  std::size_t stride() const { return static_cast<std::size_t>(solid.width + 2 * pad); }
+  float* depth_row(int y) const { return depths.data() + static_cast<std::size_t>(y + pad) * stride() + pad; }
+  std::uint32_t* color_row(int y) const {
+    return colors + static_cast<std::size_t>(y) * static_cast<std::size_t>(solid.width);
+  }
+};
+
+/// Depths of the raster with zeros around.
+void pad_depths(const Raster& raster) {
+  raster.depths.assign(raster.stride() * static_cast<std::size_t>(raster.solid.height + 2 * pad), 0);
+  parallel_for(static_cast<std::size_t>(raster.solid.height), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) {
+      float* row = raster.depth_row(static_cast<int>(y));
+      const std::uint64_t* keys = raster.solid.keys.data() + y * static_cast<std::size_t>(raster.solid.width);
+      for (int x = 0; x < raster.solid.width; ++x)
+        row[x] = std::bit_cast<float>(static_cast<std::uint32_t>(keys[x] >> 32));
+    }
+  });
+}
+
+/// shades[x]: how much eye-dome lighting leaves of each pixel of a row (compose.frag).
+void edl_row(const Raster& raster, int y, std::span<float> shades) {
+  const shared::ComposeConstants& c = raster.constants;
+  const int r = std::clamp(static_cast<int>(c.edl_radius), 1, most_edl_radius);
+  const int d = std::clamp(static_cast<int>(0.7f * c.edl_radius + 0.5f), 1, most_edl_radius);
+  const float *here = raster.depth_row(y), *up = raster.depth_row(y - r), *down = raster.depth_row(y + r);
+  const float *high = raster.depth_row(y - d), *low = raster.depth_row(y + d);
+  const auto width = static_cast<int>(shades.size());
+  const float linear = c.linear_depth, strength = c.edl_strength;
+  float* out = shades.data();
+  for (int x = 0; x < width; ++x) {
+    const float z = here[x];
+    const float scale = linear > 0 ? linear : shared::inverse_ln2 / std::max(z, 1e-30f);
+    const auto tap = [&](float there) { return std::clamp((there - z) * scale, 0.0f, shared::edl_limit); };
+    const float sum = tap(here[x + r]) + tap(here[x - r]) + tap(up[x]) + tap(down[x]) + tap(low[x + d]) +
+                      tap(low[x - d]) + tap(high[x + d]) + tap(high[x - d]);
+    out[x] = shared::edl_shade(strength * sum);
+  }
+}
+
+/// The gradient with its dither (backdrop.frag).
+Vector3f backdrop(const shared::ComposeConstants& c, int x, int y) {
+  const float t = (static_cast<float>(y) + 0.5f) / c.size.y();
+  const float inner = (static_cast<float>(x) + 0.5f) * 0.06711056f + (static_cast<float>(y) + 0.5f) * 0.00583715f;
+  const float outer = 52.9829189f * (inner - std::floor(inner));
+  const float dither = outer - std::floor(outer) - 0.5f;
+  return (color_of(c.top) * (1 - t) + color_of(c.bottom) * t).array() + dither / 255.0f;
+}
+
+void shade_row(const Raster& raster, int y, std::vector<float>& shades) {
+  const RasterImage& solid = raster.solid;
+  shades.resize(static_cast<std::size_t>(solid.width));
+  if (raster.constants.edl_strength > 0)
+    edl_row(raster, y, shades);
+  else
+    std::fill(shades.begin(), shades.end(), 1.0f);
+  std::uint32_t* out = raster.color_row(y);
+  const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(solid.width);
+  for (int x = 0; x < solid.width; ++x) {
+    const std::size_t pixel = first + static_cast<std::size_t>(x);
+    Shaded shaded;
+    if (solid.empty(pixel)) {
+      shaded.color = backdrop(raster.constants, x / raster.scale, y / raster.scale);
+    } else {
+      shaded = shade(raster.items, solid, pixel);
+      shaded.color *= shades[static_cast<std::size_t>(x)];
+    }
+    if (raster.ghost != nullptr && raster.ghost->keys[pixel] >> 32 > solid.keys[pixel] >> 32) {
+      const Shaded ghost = shade(raster.ghost_items, *raster.ghost, pixel);
+      shaded.color += ghost.alpha * (ghost.color - shaded.color);
+    }
+    out[x] = packed_color(shaded.color) | (shaded.selected ? selected_bit : 0);
+  }
+}
+
+/// Pixels beside selected ones take the outline's colour (compose.frag). Found first and coloured afterwards, because
+/// rows read the rows around them.
+void draw_outline(const Raster& raster, std::vector<std::uint8_t>& outlined) {
+  const int width = raster.solid.width, height = raster.solid.height, reach = raster.scale;
+  outlined.assign(raster.solid.keys.size(), 0);
+  parallel_for(static_cast<std::size_t>(height), 16, [&](std::size_t begin, std::size_t end) {
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      const int top = std::max(0, y - reach), bottom = std::min(height - 1, y + reach);
+      std::uint8_t* row = outlined.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
+      for (int x = 0; x < width; ++x) {
+        if ((raster.color_row(y)[x] & selected_bit) != 0) continue;
+        std::uint32_t near = 0;
+        for (int v = top; v <= bottom; ++v)
+          for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach); ++u) near |= raster.color_row(v)[u];
+        row[x] = (near & selected_bit) != 0;
+      }
+    }
+  });
+  parallel_for(outlined.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (outlined[i] != 0) raster.colors[i] = raster.constants.outline & 0xffffffu;
+  });
+}
+
+std::uint32_t ordered(std::uint32_t rgba, bool blue_first) {
+  const std::uint32_t color =
+      blue_first ? (rgba & 0xff00u) | (rgba & 0xffu) << 16 | (rgba >> 16 & 0xffu) : rgba & 0xffffffu;
+  return color | 0xff000000u;
+}
+
+/// Averages scale x scale colours, and takes one of their depths, as a resolved depth is one sample's.
+void write_output(const Raster& raster, VkExtent2D extent, const RasterOutput& out) {
+  const int scale = raster.scale;
+  const auto width = static_cast<int>(extent.width);
+  parallel_for(extent.height, 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) {
+      std::uint32_t* colors = out.colors + y * extent.width;
+      float* depths = out.depths + y * extent.width;
+      const int row = static_cast<int>(y) * scale;
+      const float* depth = raster.depth_row(row);
+      if (scale == 1) {
+        for (int x = 0; x < width; ++x) colors[x] = ordered(raster.color_row(row)[x], out.blue_first);
+        std::copy(depth, depth + width, depths);
+        continue;
+      }
+      const std::uint32_t *a = raster.color_row(row), *b = raster.color_row(row + 1);
+      for (int x = 0; x < width; ++x) {
+        // Two channels at a time: sums of four bytes fit into 16 bits.
+        const std::uint32_t p = a[2 * x], q = a[2 * x + 1], r = b[2 * x], s = b[2 * x + 1];
+        const std::uint32_t red_blue = (p & 0xff00ffu) + (q & 0xff00ffu) + (r & 0xff00ffu) + (s & 0xff00ffu) + 0x20002u;
+        const std::uint32_t green = (p >> 8 & 0xffu) + (q >> 8 & 0xffu) + (r >> 8 & 0xffu) + (s >> 8 & 0xffu) + 2u;
+        colors[x] = ordered((red_blue >> 2 & 0xff00ffu) | (green >> 2 & 0xffu) << 8, out.blue_first);
+        depths[x] = depth[2 * x];
+      }
+    }
+  });
+}
+
+}  // namespace
+
+void raster_scene(RasterScratch& scratch, const Scene& scene, VkExtent2D extent, const RasterOutput& out) {
+  const bool fits = std::size_t{4} * extent.width * extent.height <= most_samples;
+  const int scale = scene.smooth_edges && fits ? 2 : 1;
+  const int width = static_cast<int>(extent.width) * scale, height = static_cast<int>(extent.height) * scale;
+  std::vector<RasterItem> items = raster_items(scene, extent, false, scale);
+  std::vector<RasterItem> ghosts = raster_items(scene, extent, true, scale);
+  raster(scratch.solid, width, height, items);
+  if (!ghosts.empty()) raster(scratch.ghost, width, height, ghosts);
+
+  Raster state{scratch.solid,
+               items,
+               ghosts.empty() ? nullptr : &scratch.ghost,
+               ghosts,
+               compose_constants(scene, extent),
+               scale,
+               scratch.depths,
+               out.colors};
+  state.constants.edl_radius *= static_cast<float>(scale);
+  if (scale > 1) {
+    scratch.colors.resize(scratch.solid.keys.size());
+    state.colors = scratch.colors.data();
+  }
+  pad_depths(state);
+  parallel_for(static_cast<std::size_t>(height), 8, [&](std::size_t begin, std::size_t end) {
+    std::vector<float> shades;
+    for (std::size_t y = begin; y < end; ++y) shade_row(state, static_cast<int>(y), shades);
+  });
+  if (state.constants.outline != 0) draw_outline(state, scratch.outlined);
+  write_output(state, extent, out);
+}
+
+}  // namespace sinew::gpu
