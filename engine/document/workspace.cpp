@@ -93,6 +93,7 @@ bool Workspace::make(Kept& kept, const Layer& layer, std::size_t index, const Up
   kept.result.build_seconds = seconds_since(begin);
   // The weights live in the deformer, and never change while it lives.
   kept.result.weights = std::shared_ptr<const SkinWeights>(kept.deformer, &kept.deformer->weights());
+  kept.result.structure = std::make_shared<const Deformer::Structure>(kept.deformer->structure());
   kept.layer = layer;
   return true;
 }
@@ -101,7 +102,8 @@ bool Workspace::solve(Kept& kept, const Layer& layer, const UpdateOptions& optio
   LayerResult& result = kept.result;
   const bool first = result.pose == nullptr, start_again = first || !(kept.layer.start == layer.start);
   Constraints constraints = selector_.constraints(layer, kept.rest->positions);
-  const bool better = options.solve.quality == SolveOptions::Quality::Final && kept.quality != SolveOptions::Quality::Final;
+  const bool better =
+      options.solve.quality == SolveOptions::Quality::Final && kept.quality != SolveOptions::Quality::Final;
   if (start_again || better || !kept.settled || !same_constraints(constraints, result.constraints)) {
     if (start_again) {
       kept.deformer->reset();

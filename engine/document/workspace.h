@@ -18,10 +18,11 @@ struct LayerResult {
   std::size_t layer = 0;                       ///< its index in Project::layers
   std::shared_ptr<const SkinWeights> weights;  ///< of all points of the input
   std::shared_ptr<const Pose> pose;
+  std::shared_ptr<const Deformer::Structure> structure;  ///< of the layer's deformer, at rest, to draw
   SolveReport report;
-  Constraints constraints;  ///< that the pose was solved for
-  bool solved = false;      ///< false: an earlier pose is carried along, because a layer below is being dragged
-  double build_seconds = 0; ///< making the deformer: its structure and the weights of the points
+  Constraints constraints;   ///< that the pose was solved for
+  bool solved = false;       ///< false: an earlier pose is carried along, because a layer below is being dragged
+  double build_seconds = 0;  ///< making the deformer: its structure and the weights of the points
 };
 
 struct UpdateOptions {
