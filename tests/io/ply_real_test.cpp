@@ -14,6 +14,14 @@ struct RealFile {
 
 class RealPly : public testing::TestWithParam<RealFile> {};
 
+/// Damaged files, and what is said of them behind the path.
+struct DamagedFile {
+  const char* name;
+  const char* sentence;
+};
+
+class DamagedPly : public testing::TestWithParam<DamagedFile> {};
+
 }  // namespace
 
 TEST_P(RealPly, ComesBackByteForByte) {
@@ -24,6 +32,34 @@ TEST_P(RealPly, ComesBackByteForByte) {
   EXPECT_TRUE(write_text(write_ply, *shape) == text_of_file(path.string()));
   EXPECT_TRUE(lost(write_ply, *shape).empty());
 }
+
+TEST_P(DamagedPly, IsRefusedInOneSentence) {
+  SHARED_DATA(path, GetParam().name);
+  try {
+    read(path.string());
+    ADD_FAILURE() << "read";
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), path.string() + GetParam().sentence);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shared, DamagedPly,
+    testing::Values(
+        DamagedFile{"malformed/assimp/empty.ply", ":1:1: expected \"ply\", found an empty file"},
+        DamagedFile{
+            "malformed/assimp/crash-30d6d0f7c529b3b66b4131700b7a4580cd7082df.ply",
+            ":7:10: expected a type (char, uchar, short, ushort, int, uint, float, double), found \"\\x00\\x00\\x00\""},
+        DamagedFile{
+            "malformed/assimp/issue623.ply",
+            ":14:56: expected vertex_indices of vertex 0, a whole number from 0 to 255, found the end of the line"},
+        DamagedFile{"malformed/trimesh/ply_empty_header.ply",
+                    ":3: expected an element \"vertex\" before it, found none"},
+        DamagedFile{"malformed/git_lfs_pointer/point_cloud.ply",
+                    ": expected PLY data, found a Git LFS pointer (the file itself was not downloaded)"},
+        DamagedFile{"splats/guitar.compressed.ply",
+                    ":28: expected a property x of the points, found \"packed_position\", \"packed_rotation\", "
+                    "\"packed_scale\", \"packed_color\""}));
 
 INSTANTIATE_TEST_SUITE_P(
     Shared, RealPly,

@@ -161,6 +161,18 @@ TEST(Stl, BytesBehindTheLastFacetAreKept) {
   EXPECT_TRUE(write_text(write_stl, shape) == text);
 }
 
+class EmptyStl : public testing::TestWithParam<const char*> {};
+
+TEST_P(EmptyStl, IsAShapeWithoutPoints) {
+  SHARED_DATA(path, GetParam());
+  const auto shape = read(path.string());
+  EXPECT_EQ(shape->size(), 0u);
+  EXPECT_EQ(write_text(write_stl, *shape), text_of_file(path.string()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Shared, EmptyStl,
+                         testing::Values("malformed/trimesh/empty.stl", "malformed/trimesh/stl_empty_bin.stl"));
+
 class RealStl : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealStl, ComesBackByteForByte) {
