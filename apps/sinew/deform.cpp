@@ -37,7 +37,8 @@ document::Project edit_of(const Options& options) {
 
 /// All outputs, before any work is done.
 void check_outputs(const Options& options) {
-  if (options.input == "-" && options.edit == "-") throw UsageError("expected one of INPUT and --edit to be -, found both");
+  if (options.input == "-" && options.edit == "-")
+    throw UsageError("expected one of INPUT and --edit to be -, found both");
   const int streams = (options.out.path == "-") + (options.report == "-") + (options.pose == "-");
   if (streams > 1) throw UsageError("expected one output to be -, found " + std::to_string(streams));
   check_output(options.out);
@@ -45,12 +46,12 @@ void check_outputs(const Options& options) {
   if (!options.pose.empty()) check_output_text(options.pose, options.out.force);
 }
 
-document::Evaluation solve(const std::shared_ptr<const Shape>& input, const document::Project& project) {
+document::Evaluation solve(const std::shared_ptr<const Shape>& input, const document::Project& project, bool measure) {
   Progress progress("");
   const auto show = [&](const char* what, std::size_t layer, double fraction) {
     return progress(fmt::format("{} layer {}", what, layer + 1), fraction);
   };
-  return document::evaluate(input, project.layers, methods(), show);
+  return document::evaluate(input, project.layers, methods(), {show, measure});
 }
 
 /// The worst of the layers: Failed, NotConverged or Ok; messages of the layers go to standard error.
@@ -59,6 +60,7 @@ int status_of(const document::Evaluation& evaluation, bool strict) {
   for (std::size_t i = 0; i < evaluation.reports.size(); ++i) {
     const SolveReport& report = evaluation.reports[i].solve;
     const std::string place = fmt::format("layer {}", evaluation.layers[i].layer + 1);
+    for (const std::string& note : evaluation.reports[i].notes) message(place + ": " + note);
     if (!report.message.empty()) message(place + ": " + report.message);
     if (report.status == Status::Failed) return Failed;
     if (report.status == Status::Converged || !strict) continue;
@@ -76,7 +78,7 @@ int run(const Options& options) {
   document::Report report;
   const std::shared_ptr<const Shape> input = read_input(options.input, options.from);
   report.read = seconds_since(begin);
-  const document::Evaluation evaluation = solve(input, project);
+  const document::Evaluation evaluation = solve(input, project, !options.report.empty());
   const int status = status_of(evaluation, options.strict);
   if (status == Failed) return Failed;
 

@@ -22,7 +22,7 @@ struct Options {
 
 /// Point i of A against point i of B, in the file's unit.
 struct Distances {
-  std::size_t moved = 0;      ///< points with any difference, however small
+  std::size_t moved = 0;         ///< points with any difference, however small
   std::size_t incomparable = 0;  ///< finite in one file only
   double max = 0, rms = 0;
   double diagonal = 0;  ///< of A
@@ -106,7 +106,8 @@ Shape with_values_of(const Shape& from, Shape to) {
 bool all_else_equal(const std::string& path_a, const Shape& a, const std::string& path_b, const Shape& b) {
   const io::Format& format = io::format_of(path_a);
   io::WriteReport report;
-  const auto becomes = [&](const std::string& from_path, const Shape& from, const Shape& values, const std::string& to) {
+  const auto becomes = [&](const std::string& from_path, const Shape& from, const Shape& values,
+                           const std::string& to) {
     return format.write(from_path, with_values_of(values, from), report) == io::load_bytes(to);
   };
   return becomes(path_a, a, b, path_b) || becomes(path_b, b, a, path_a);

@@ -56,7 +56,8 @@ void check_output(const Output& output) {
   std::string extension = output.as;
   if (output.path != "-") extension = std::filesystem::path(output.path).extension().string();
   if (extension.starts_with('.')) extension.erase(0, 1);
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   bool known = false;
   for (const io::Format& format : io::formats())
     for (const std::string& e : format.extensions) known = known || (e == extension && format.write != nullptr);

@@ -36,8 +36,8 @@ Info info_of(const std::string& path, const std::string& from) {
   info.shape = read_input(path, from);
   const Shape& shape = *info.shape;
   info.input = document::report_of(shape);
-  info.not_finite = static_cast<std::size_t>(std::count_if(shape.positions.begin(), shape.positions.end(),
-                                                           [](const Vec3& p) { return !p.allFinite(); }));
+  info.not_finite = static_cast<std::size_t>(
+      std::count_if(shape.positions.begin(), shape.positions.end(), [](const Vec3& p) { return !p.allFinite(); }));
   const Bounds bounds = bounds_of(shape.positions);
   info.empty = bounds.empty();
   if (info.empty) return info;
@@ -123,8 +123,8 @@ void print_text(const Info& info) {
   }
   for (std::size_t i = 0; i < shape.attributes.size(); ++i) {
     const Attribute& a = shape.attributes[i];
-    print_row(i == 0 ? "attributes" : "", fmt::format("{:<20} {} x {}, {}", a.name, name_of(a.type), a.components,
-                                                      name_of(a.kind)));
+    print_row(i == 0 ? "attributes" : "",
+              fmt::format("{:<20} {} x {}, {}", a.name, name_of(a.type), a.components, name_of(a.kind)));
   }
   for (std::size_t i = 0; i < shape.parts.size(); ++i)
     print_row(i == 0 ? "scans" : "", fmt::format("{:<20} {} points", shape.parts[i].path, shape.parts[i].count));

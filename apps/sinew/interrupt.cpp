@@ -1,8 +1,8 @@
 #include "apps/sinew/interrupt.h"
 
+#include <unistd.h>
 #include <csignal>
 #include <exception>
-#include <unistd.h>
 
 #include "apps/sinew/command.h"
 

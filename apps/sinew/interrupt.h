@@ -1,6 +1,6 @@
 #pragma once
-/// Ctrl-C. It ends the program at once (status 130), except while an output is being written: then it is only noted, and
-/// the writer finishes or gives up its temporary file.
+/// Ctrl-C. It ends the program at once (status 130), except while an output is being written: then it is only noted,
+/// and the writer finishes or gives up its temporary file.
 
 namespace sinew::app {
 

@@ -34,8 +34,8 @@ template <class T, class U>
 concept Is = std::is_same_v<std::remove_const_t<T>, U>;
 
 template <class T>
-  requires Is<T, Selection> || Is<T, Ball> || Is<T, Rotation> || Is<T, Motion> || Is<T, HandleEdit> ||
-           Is<T, Stiffness> || Is<T, Key> || Is<T, Layer> || Is<T, EditFile>
+requires Is<T, Selection> || Is<T, Ball> || Is<T, Rotation> || Is<T, Motion> || Is<T, HandleEdit> || Is<T, Stiffness> ||
+    Is<T, Key> || Is<T, Layer> || Is<T, EditFile>
 inline constexpr bool is_object<T> = true;
 
 static void read_value(const JsonFile& file, const Json& json, SettingsObject& settings) {
@@ -182,6 +182,7 @@ static void check_motion(const ObjectReader& reader, const Motion& motion) {
   const bool to = reader.json().find("to") != nullptr;
   if (!moves && !to)
     throw reader.file().error(reader.json(), "a motion: \"move\", \"rotate\", \"matrix\" or \"to\"", "none");
+  if (to && motion.to.get().empty()) throw_at("to", "at least one target", "none");
   if (moves && to) throw_at("to", "\"to\" alone", "another motion beside it");
   if (motion.matrix && motion.matrix->row(3) != Eigen::RowVector4d(0, 0, 0, 1))
     throw_at("matrix", "a last row of [0, 0, 0, 1]", "another");

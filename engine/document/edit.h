@@ -3,8 +3,8 @@
 /// is the same with "inputs".
 ///
 /// Beyond interface.md: a layer may have "name", "off": true, "nodes" (selections of the points that the method is
-/// to build its structure on) and "start" (maps of 12 numbers, the pose to start from); a rotation without "about" turns
-/// about the mean of the handle's points.
+/// to build its structure on) and "start" (maps of 12 numbers, the pose to start from); a rotation without "about"
+/// turns about the mean of the handle's points.
 
 #include <string>
 

@@ -25,33 +25,45 @@ void measure_handles(const Constraints& constraints, std::span<const Vec3> bent,
   if (count > 0) out.handle_rms = std::sqrt(sum / static_cast<double>(count));
 }
 
+double seconds_of(const std::function<void()>& work) {
+  const auto begin = std::chrono::steady_clock::now();
+  work();
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+void measure(const Deformer& deformer, const LayerResult& result, const Shape& rest, std::span<const Vec3> bent,
+             LayerReport& out) {
+  std::vector<Vec3> moved(rest.size());
+  out.bind = seconds_of([&] { deformer.bind(rest.positions); });
+  out.skin = seconds_of([&] { skin_points(*result.weights, *result.pose, rest.positions, moved); });
+  out.quality = quality_of(rest, bent);
+}
+
 }  // namespace
 
 Evaluation evaluate(const std::shared_ptr<const Shape>& input, std::span<const Layer> layers,
-                    std::span<const Method> methods,
-                    const std::function<bool(const char* what, std::size_t layer, double fraction)>& progress) {
+                    std::span<const Method> methods, const EvaluateOptions& options) {
   Workspace workspace(input, methods);
-  UpdateOptions options;
-  options.progress = progress;
-  UpdateResult update = workspace.update(layers, options);
+  UpdateOptions wanted;
+  wanted.progress = options.progress;
+  UpdateResult update = workspace.update(layers, wanted);
   if (update.stopped) throw io::Cancelled{};
 
   const double extent = bounds_of(input->positions).diagonal(), diagonal = extent > 0 ? extent : 1;
   Evaluation out;
   out.shape = input;
   for (const LayerResult& result : update.layers) {
+    const Deformer& deformer = *workspace.deformer(result.layer);
     LayerReport report;
     report.method = layers[result.layer].method;
     report.solve = result.report;
+    report.counts = deformer.counts();
+    report.notes = deformer.notes();
     report.build = result.build_seconds;
     const auto bent = std::make_shared<Shape>(skin(*out.shape, *result.weights, *result.pose));
-    std::vector<Vec3> moved(input->size());
-    const auto begin = std::chrono::steady_clock::now();
-    skin_points(*result.weights, *result.pose, out.shape->positions, moved);
-    report.skin = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     measure_handles(result.constraints, bent->positions, diagonal, report);
-    report.quality = quality_of(*out.shape, bent->positions);
-    out.bindings.push_back(workspace.deformer(result.layer)->binding());
+    if (options.measure) measure(deformer, result, *out.shape, bent->positions, report);
+    out.bindings.push_back(deformer.binding());
     out.reports.push_back(std::move(report));
     out.shape = bent;
   }

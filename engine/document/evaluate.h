@@ -18,10 +18,14 @@ struct Evaluation {
   std::vector<LayerReport> reports;                    ///< of each of `layers`
 };
 
+struct EvaluateOptions {
+  std::function<bool(const char* what, std::size_t layer, double fraction)> progress;  ///< see UpdateOptions
+  bool measure = false;  ///< fill in all of `reports`: work that the result alone does not need
+};
+
 /// Selections are made on `input`; motions act on what a layer starts from, the output of the layers below.
-/// Throws InputError, or io::Cancelled where `progress` (see UpdateOptions; empty: none) returned false.
+/// Throws InputError, or io::Cancelled where `progress` returned false.
 Evaluation evaluate(const std::shared_ptr<const Shape>& input, std::span<const Layer> layers,
-                    std::span<const Method> methods,
-                    const std::function<bool(const char* what, std::size_t layer, double fraction)>& progress = {});
+                    std::span<const Method> methods, const EvaluateOptions& options = {});
 
 }  // namespace sinew::document

@@ -15,7 +15,9 @@ namespace sinew::document {
 class History {
  public:
   /// `label` names how the first state came about ("Open").
-  explicit History(Project project, std::string label = "Open") { states_.emplace_back(std::move(label), std::move(project)); }
+  explicit History(Project project, std::string label = "Open") {
+    states_.emplace_back(std::move(label), std::move(project));
+  }
 
   const Project& present() const { return states_[present_].second; }
 

@@ -67,7 +67,7 @@ struct TreeBuilder : nlohmann::json_sax<nlohmann::json> {
   const char* behind = nullptr;  ///< after the event before
 
   Json root;
-  std::vector<Json> open;  ///< objects and arrays around the present place
+  std::vector<Json> open;        ///< objects and arrays around the present place
   std::vector<JsonMember> keys;  ///< names whose values have not come yet
   std::string problem_expected, problem_found;
   std::size_t problem_at = 0;
@@ -75,7 +75,7 @@ struct TreeBuilder : nlohmann::json_sax<nlohmann::json> {
   /// Where the token of this event begins: after the one before, what separates values is skipped.
   std::size_t token_begin() {
     const char* at = behind;
-    while (at < end && std::string_view(" \t\r\n,:]}").find(*at) != std::string_view::npos) ++at;
+    while (at < end && std::string_view(" \t\r\n,:").find(*at) != std::string_view::npos) ++at;
     return static_cast<std::size_t>(at - begin);
   }
   bool refuse(std::size_t at, std::string expected, std::string found) {
@@ -99,6 +99,9 @@ struct TreeBuilder : nlohmann::json_sax<nlohmann::json> {
   bool add(Json::Type type, double number) {
     Json value{type, token_begin(), number, nullptr};
     behind = last;
+    // A number ends where another character comes, which the parser has then seen already.
+    const bool seen_more = type == Json::Type::Number && last != end;
+    if (seen_more && std::string_view(" \t\r\n,:]}").find(last[-1]) == std::string_view::npos) --behind;
     return add(std::move(value));
   }
   bool start(Json::Type type) {
@@ -141,14 +144,26 @@ struct TreeBuilder : nlohmann::json_sax<nlohmann::json> {
     return true;
   }
   /// The parser's own message, cut into what was expected and what was found.
-  bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& error) override {
+  bool parse_error(std::size_t, const std::string& token, const nlohmann::detail::exception& error) override {
     const std::string message = error.what();
+    if (error.id == 406) return refuse(token_begin(), "a number that fits a double", sinew::quoted(token));
     const std::size_t expected = message.find("; expected "), read = message.find("; last read");
-    std::size_t found = message.find(" - ");
-    found = found == std::string::npos ? message.rfind(": ") + 2 : found + 3;
-    std::string what = message.substr(found, std::min(expected, read) - found);
-    if (what.starts_with("unexpected ")) what.erase(0, 11);
-    return refuse(token_begin(), expected == std::string::npos ? "JSON" : message.substr(expected + 11), what);
+    const std::size_t dash = message.find(" - "),
+                      found = dash == std::string::npos ? message.rfind(": ") + 2 : dash + 3;
+    const std::string what = message.substr(found, std::min(expected, read) - found);
+    return refuse(token_begin(), expected == std::string::npos ? "JSON" : plain(message.substr(expected + 11)),
+                  plain(what.starts_with("unexpected ") ? what.substr(11) : what));
+  }
+
+  /// The parser's name of a token in plain words. Where a comma would do as well, it names the bracket only.
+  static std::string plain(const std::string& token) {
+    static const std::pair<const char*, const char*> words[] = {
+        {"string literal", "a text"},         {"number literal", "a number"}, {"true literal", "true"},
+        {"false literal", "false"},           {"null literal", "null"},       {"end of input", "the end of the text"},
+        {"'[', '{', or a literal", "a value"}};
+    for (const auto& [name, word] : words)
+      if (token == name) return word;
+    return token;
   }
 };
 
@@ -324,7 +339,10 @@ void write_value(JsonWriter& out, bool value) {
   out.raw(value ? "true" : "false");
 }
 void write_value(JsonWriter& out, double value) {
-  out.raw(std::isfinite(value) ? io::shortest(value) : "null");
+  if (value == 0 && std::signbit(value))
+    out.raw("-0.0");  // "-0" would come back as a whole number, without its sign
+  else
+    out.raw(std::isfinite(value) ? io::shortest(value) : "null");
 }
 void write_value(JsonWriter& out, int value) {
   out.raw(std::to_string(value));

@@ -32,8 +32,8 @@ struct Json {
   struct Content;
 
   Type type = Type::Null;
-  std::size_t at = 0;  ///< its first byte in the text
-  double number = 0;   ///< of Number; 0 or 1 of Bool
+  std::size_t at = 0;                ///< its first byte in the text
+  double number = 0;                 ///< of Number; 0 or 1 of Bool
   std::shared_ptr<Content> content;  ///< of Text, Array and Object
 
   const std::string& text() const;
@@ -54,7 +54,8 @@ struct Place {
   bool operator==(const Place&) const { return true; }
 };
 
-/// A parsed file. Throws InputError where the text is no JSON (RFC 8259) or nested deeper than 32 or an object has more than 1000 members.
+/// A parsed file. Throws InputError where the text is no JSON (RFC 8259) or nested deeper than 32 or an object has more
+/// than 1000 members.
 class JsonFile {
  public:
   JsonFile(std::string path, std::string text);
@@ -103,7 +104,7 @@ void read_value(const JsonFile& file, const Json& json, Vec3& value);           
 void read_value(const JsonFile& file, const Json& json, Affine& value);           ///< 12 numbers, row by row
 void read_value(const JsonFile& file, const Json& json, Eigen::Matrix4d& value);  ///< 4 rows of 4
 template <class T>
-  requires is_object<T>
+requires is_object<T>
 void read_value(const JsonFile& file, const Json& json, T& value);
 template <class T>
 void read_value(const JsonFile& file, const Json& json, std::vector<T>& value);
@@ -145,7 +146,7 @@ void write_value(JsonWriter& out, const Vec3& value);
 void write_value(JsonWriter& out, const Affine& value);
 void write_value(JsonWriter& out, const Eigen::Matrix4d& value);
 template <class T>
-  requires is_object<T>
+requires is_object<T>
 void write_value(JsonWriter& out, const T& value);
 template <class T>
 void write_value(JsonWriter& out, const std::vector<T>& value);
@@ -220,7 +221,7 @@ class ObjectWriter {
 };
 
 template <class T>
-  requires is_object<T>
+requires is_object<T>
 void read_value(const JsonFile& file, const Json& json, T& value) {
   ObjectReader reader(file, json);
   fields(reader, value);
@@ -235,7 +236,7 @@ void read_value(const JsonFile& file, const Json& json, std::vector<T>& value) {
 }
 
 template <class T>
-  requires is_object<T>
+requires is_object<T>
 void write_value(JsonWriter& out, const T& value) {
   out.begin_object();
   ObjectWriter writer(out);

@@ -16,9 +16,7 @@ template <>
 inline constexpr bool is_object<SolvedEdit> = true;
 
 template <class A, class T>
-static void fields(A& a, T& table)
-  requires std::is_same_v<std::remove_const_t<T>, Deformer::Table>
-{
+static void fields(A& a, T& table) requires std::is_same_v<std::remove_const_t<T>, Deformer::Table> {
   a.required("name", table.name);
   a.required("columns", table.columns);
   a.required("values", table.values);
@@ -30,18 +28,14 @@ static void fields(A& a, T& table)
 }
 
 template <class A, class T>
-static void fields(A& a, T& layer)
-  requires std::is_same_v<std::remove_const_t<T>, SolvedLayer>
-{
+static void fields(A& a, T& layer) requires std::is_same_v<std::remove_const_t<T>, SolvedLayer> {
   a.required("method", layer.method);
   a.required("binding", layer.binding);
   a.required("maps", layer.maps);
 }
 
 template <class A, class T>
-static void fields(A& a, T& edit)
-  requires std::is_same_v<std::remove_const_t<T>, SolvedEdit>
-{
+static void fields(A& a, T& edit) requires std::is_same_v<std::remove_const_t<T>, SolvedEdit> {
   int version = 1;
   a.required("sinew_pose", version);
   if constexpr (A::reading)
@@ -98,8 +92,8 @@ Shape PoseApplier::apply(const Shape& shape) const {
     const SkinWeights weights = layer.method->bind(layer.binding, points);
     const auto highest = std::max_element(weights.maps.begin(), weights.maps.end());
     if (highest != weights.maps.end() && *highest >= layer.maps.size())
-      throw InputError("expected more than " + std::to_string(*highest) + " maps, one for each that points follow, found " +
-                       std::to_string(layer.maps.size()));
+      throw InputError("expected more than " + std::to_string(*highest) +
+                       " maps, one for each that points follow, found " + std::to_string(layer.maps.size()));
     out = skin(out, weights, layer.maps);
   }
   return out;

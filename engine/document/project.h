@@ -1,6 +1,6 @@
 #pragma once
-/// Project: the plain data that the user made. All else is derived from it and can be thrown away at any moment. A value
-/// type: big arrays are shared and never changed, so a copy costs little and undo is the previous Project.
+/// Project: the plain data that the user made. All else is derived from it and can be thrown away at any moment. A
+/// value type: big arrays are shared and never changed, so a copy costs little and undo is the previous Project.
 
 #include <memory>
 #include <optional>

@@ -1,5 +1,7 @@
 #include "engine/document/report.h"
 
+#include <algorithm>
+
 #include "engine/geometry/topology.h"
 
 namespace sinew::document {
@@ -12,9 +14,15 @@ void member(JsonWriter& out, const std::string& name, const T& value) {
   write_value(out, value);
 }
 
-/// Counts are whole numbers in doubles.
-void write_counts(JsonWriter& out, const Figures& figures) {
-  for (const auto& [name, value] : figures) member(out, name, static_cast<std::size_t>(value));
+/// Counts are whole numbers in doubles. Those of the solve come first; each name once.
+void write_counts(JsonWriter& out, const LayerReport& layer) {
+  std::vector<std::string> written;
+  for (const Figures* figures : {&layer.solve.counts, &layer.counts})
+    for (const auto& [name, value] : *figures) {
+      if (std::find(written.begin(), written.end(), name) != written.end()) continue;
+      written.push_back(name);
+      member(out, name, static_cast<std::size_t>(value));
+    }
 }
 
 void begin(JsonWriter& out, const std::string& name) {
@@ -35,6 +43,7 @@ void write_quality(JsonWriter& out, const Quality& quality) {
 void write_seconds(JsonWriter& out, const LayerReport& layer) {
   begin(out, "seconds");
   member(out, "build", layer.build);
+  member(out, "bind", layer.bind);
   member(out, "prefactor", layer.solve.prefactor_seconds);
   member(out, "solve", layer.solve.solve_seconds);
   if (layer.solve.iterations > 0) member(out, "per_iteration", layer.solve.solve_seconds / layer.solve.iterations);
@@ -48,7 +57,13 @@ void write_layer(JsonWriter& out, const LayerReport& layer) {
   member(out, "status", name_of(layer.solve.status));
   if (!layer.solve.message.empty()) member(out, "message", layer.solve.message);
   member(out, "iterations", layer.solve.iterations);
-  write_counts(out, layer.solve.counts);
+  if (!layer.notes.empty()) {
+    out.key("notes");
+    out.begin_array(false);
+    for (const std::string& note : layer.notes) out.text(note);
+    out.end_array();
+  }
+  write_counts(out, layer);
   begin(out, "energy");
   for (const auto& [name, value] : layer.solve.energy) member(out, name, value);
   out.end_object();

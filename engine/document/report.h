@@ -18,14 +18,19 @@ struct InputReport {
 /// Counts components: seconds for a scan of many million points.
 InputReport report_of(const Shape& input);
 
-/// Energies as the solver has them; distances in units of the input's bounding-box diagonal; times in seconds, measured.
+/// Energies as the solver has them; distances in units of the input's bounding-box diagonal; times in seconds,
+/// measured.
 struct LayerReport {
   std::string method;
   SolveReport solve;
+  Figures counts;                  ///< of the deformer's structure
+  std::vector<std::string> notes;  ///< what was left out in making it, one sentence each
   double handle_max = 0, handle_rms = 0;
   std::vector<double> example_weights;
   Quality quality;
-  double build = 0, skin = 0;
+  double build = 0;  ///< making the deformer: its structure, and binding the points for the first time
+  double bind = 0;   ///< binding all points once more
+  double skin = 0;   ///< moving all points once
 };
 
 struct Report {

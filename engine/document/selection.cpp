@@ -108,7 +108,8 @@ std::vector<Index> Selector::select(const Selection& selection) {
       if (component.number >= components.count)
         throw file_error(place.text, "a component below " + std::to_string(components.count),
                          std::to_string(component.number));
-      return finite_points(shape, [&](std::size_t i, const Vec3&) { return components.of_point[i] == component.number; });
+      return finite_points(shape,
+                           [&](std::size_t i, const Vec3&) { return components.of_point[i] == component.number; });
     }
     std::vector<Index> operator()(const SelectLabels& labels) const {
       const std::vector<std::int64_t>& of_point = selector.labels(labels.path);

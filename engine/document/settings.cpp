@@ -112,7 +112,8 @@ void set_from_text(const std::string& text, Project& project, std::span<const Me
     layer.settings.push_back(edit);
     taken = true;
   }
-  if (!taken) throw place_error(place, "", "a setting of a layer's method (sinew methods lists them)", sinew::quoted(name));
+  if (!taken)
+    throw place_error(place, "", "a setting of a layer's method (sinew methods lists them)", sinew::quoted(name));
 }
 
 }  // namespace sinew::document

@@ -1,7 +1,7 @@
 #pragma once
-/// SolverThread: one thread that takes the newest Project and gives back the newest poses. Two one-slot mailboxes are all
-/// that it shares with the caller; what it publishes is never changed afterwards. While a mouse drags, each request asks
-/// for Quality::Interactive, and the last one, when the button is let go, for Quality::Final.
+/// SolverThread: one thread that takes the newest Project and gives back the newest poses. Two one-slot mailboxes are
+/// all that it shares with the caller; what it publishes is never changed afterwards. While a mouse drags, each request
+/// asks for Quality::Interactive, and the last one, when the button is let go, for Quality::Final.
 
 #include <atomic>
 #include <cstdint>
