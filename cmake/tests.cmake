@@ -20,3 +20,11 @@ sinew_tests(test_document tests/document/*.cpp sinew_document sinew_deformers)
 sinew_tests(test_deformers tests/deformers/*.cpp sinew_deformers sinew_io)
 sinew_tests(test_samples tests/apps/samples_test.cpp sinew_samples sinew_document)
 sinew_tests(test_house tests/house/*.cpp sinew_common)
+
+# One run of all gpu tests: each start of the program proves anew that the validation layer catches a planted hazard.
+find_package(glfw3 3.3 REQUIRED CONFIG)
+file(GLOB SINEW_GPU_TESTS CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/gpu/*.cpp)
+add_executable(test_gpu ${SINEW_GPU_TESTS})
+target_link_libraries(test_gpu PRIVATE sinew_gpu glfw GTest::gtest_main)
+add_test(NAME gpu COMMAND test_gpu)
+set_tests_properties(gpu PROPERTIES LABELS gpu TIMEOUT 600)

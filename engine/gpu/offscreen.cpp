@@ -42,7 +42,8 @@ Picture read_picture(const Offscreen& offscreen) {
   Picture picture;
   picture.width = static_cast<int>(offscreen.extent.width);
   picture.height = static_cast<int>(offscreen.extent.height);
-  const std::span<const std::uint8_t> bytes = offscreen.readback.as<std::uint8_t>();
+  const std::span<const std::uint8_t> bytes =
+      offscreen.readback.as<std::uint8_t>().first(std::size_t{4} * offscreen.extent.width * offscreen.extent.height);
   picture.rgba.assign(bytes.begin(), bytes.end());
   return picture;
 }
