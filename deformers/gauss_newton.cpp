@@ -42,6 +42,68 @@ bool factorize(const GaussNewtonModel& model, KeptFactor& kept, const Vector& g)
   return false;
 }
 
+/// What the last steps told of the curvature that J'J lacks (the second derivatives of f): limited-memory BFGS [Nocedal
+/// 1980] around the kept factor. Gauss-Newton alone converges linearly where f is not small at the minimum.
+class Curvature {
+ public:
+  void clear() { pairs_.clear(); }
+
+  /// The gradient changed by y over the step s.
+  void add(const Vector& s, const Vector& y) {
+    const double sy = s.dot(y);
+    if (!(sy > 1e-10 * s.norm() * y.norm())) return;
+    if (pairs_.size() == memory) pairs_.erase(pairs_.begin());
+    pairs_.push_back({s, y, 1 / sy});
+  }
+
+  /// step <- -(approximate Hessian)^-1 g.
+  void solve(const SparseCholesky& cholesky, const Vector& g, Vector& step) const {
+    step = -g;
+    std::vector<double> a(pairs_.size());
+    for (std::size_t i = pairs_.size(); i-- > 0;) {
+      a[i] = pairs_[i].rho * pairs_[i].s.dot(step);
+      step -= a[i] * pairs_[i].y;
+    }
+    cholesky.solve(span_of(step));
+    for (std::size_t i = 0; i < pairs_.size(); ++i)
+      step += (a[i] - pairs_[i].rho * pairs_[i].y.dot(step)) * pairs_[i].s;
+  }
+
+ private:
+  static constexpr std::size_t memory = 5;
+  struct Pair {
+    Vector s, y;
+    double rho;
+  };
+  std::vector<Pair> pairs_;
+};
+
+/// Halves the step until F does not rise; the trial is then x + scale * step. With a factor that is not of this x only
+/// the whole step is tried: where that rises, a new factor helps more than a short step. F is infinite where nothing
+/// went down.
+struct Trial {
+  double scale = 1, F = INFINITY;
+};
+Trial line_search(const GaussNewtonModel& model, Vector& step, double F, bool fresh) {
+  Trial trial;
+  for (; trial.scale > 1e-10; trial.scale *= 0.5) {
+    model.try_step(span_of(step), trial.scale);
+    trial.F = model.trial_energy();
+    if (trial.F <= F) return trial;
+    if (!fresh) break;
+  }
+  trial.F = INFINITY;
+  return trial;
+}
+
+/// The three tests of eq. 12, and the relative one. The gradient of F is 2 J'f = 2 g.
+bool converged(const GaussNewtonOptions& options, double F, double decrease, const Vector& g, double largest_step) {
+  const double root = std::cbrt(options.epsilon);
+  return decrease < options.epsilon * (1 + F) && 2 * g.lpNorm<Eigen::Infinity>() < root * (1 + F) &&
+         largest_step < root * (1 + largest_step) &&
+         (options.relative_decrease <= 0 || decrease <= options.relative_decrease * F);
+}
+
 }  // namespace
 
 GaussNewtonResult gauss_newton(const GaussNewtonModel& model, KeptFactor& kept, const GaussNewtonOptions& options) {
@@ -55,14 +117,17 @@ GaussNewtonResult gauss_newton(const GaussNewtonModel& model, KeptFactor& kept, 
     result.message = "the energy at the start is not finite";
     return result;
   }
-  const double root = std::cbrt(options.epsilon);
-  Vector g(n), step(n);
-  bool fresh = false, renew = !options.keep_factor || !kept.usable;
+  Vector g(n), former_g(n), step(n);
+  Curvature curvature;
+  bool fresh = false, accepted = false, renew = !options.keep_factor || !kept.usable;
   double former_length = 0;
+  int steps_with_factor = 0;
   result.status = Status::MaxIterations;
 
   while (result.iterations < options.max_iterations) {
     model.gradient(span_of(g));
+    if (accepted && options.keep_factor) curvature.add(step, g - former_g);
+    accepted = false;
     if (renew) {
       if (!factorize(model, kept, g)) {
         result.status = Status::Failed;
@@ -72,51 +137,45 @@ GaussNewtonResult gauss_newton(const GaussNewtonModel& model, KeptFactor& kept, 
       ++result.factorizations;
       fresh = true;
       renew = false;
+      steps_with_factor = 0;
     }
-    step = -g;
-    kept.cholesky.solve(span_of(step));
+    curvature.solve(kept.cholesky, g, step);
 
-    double scale = 1, F_trial = INFINITY;
-    for (; scale > 1e-10; scale *= 0.5) {
-      model.try_step({step.data(), static_cast<std::size_t>(n)}, scale);
-      F_trial = model.trial_energy();
-      if (F_trial <= F) break;
-      if (!fresh) break;  // an old factor gave a bad step: make a new one rather than a short step
-    }
-    if (!(F_trial <= F)) {
+    const Trial trial = line_search(model, step, F, fresh);
+    if (!std::isfinite(trial.F)) {
       if (!fresh) {
         renew = true;
+        curvature.clear();
         continue;
       }
       // Not even a tiny step goes down: rounding level, or a model that does not fit its derivatives.
-      const bool flat = 2 * g.lpNorm<Eigen::Infinity>() < root * (1 + F);
+      const bool flat = 2 * g.lpNorm<Eigen::Infinity>() < std::cbrt(options.epsilon) * (1 + F);
       result.status = flat ? Status::Converged : Status::Stalled;
       if (!flat) result.message = "no step along the Gauss-Newton direction lowers the energy";
       break;
     }
     model.accept();
+    accepted = true;
+    former_g = g;
+    step *= trial.scale;
     ++result.iterations;
-    const double decrease = F - F_trial, length = scale * step.norm(), largest = scale * step.lpNorm<Eigen::Infinity>();
-    F = F_trial;
-
-    // Eq. 12; the gradient of F is 2 J'f.
-    const bool energy_still = decrease < options.epsilon * (1 + F) &&
-                              (options.relative_decrease <= 0 || decrease <= options.relative_decrease * F);
-    const bool flat = 2 * g.lpNorm<Eigen::Infinity>() < root * (1 + F);
-    const bool at_rest = largest < root * (1 + largest);
+    const double decrease = F - trial.F, length = step.norm();
+    F = trial.F;
     if (options.on_iteration && !options.on_iteration()) {
       result.status = Status::Stopped;
       break;
     }
-    if (energy_still && flat && at_rest) {
+    if (converged(options, F, decrease, g, step.lpNorm<Eigen::Infinity>())) {
       result.status = Status::Converged;
       break;
     }
-    // A new factor pays when the steps with the old one shrink too slowly, or had to be cut.
-    const bool slow = former_length > 0 && length > 0.3 * former_length;
-    renew = !options.keep_factor || slow || scale < 1;
+    // A factor costs about as much as ten steps with it: a new one pays when that many went by and progress is slow
+    // still.
+    const bool worn = ++steps_with_factor >= 10 && length > 0.7 * former_length;
+    renew = !options.keep_factor || worn || trial.scale < 1;
+    if (renew) curvature.clear();
     fresh = false;
-    former_length = renew ? 0 : length;
+    former_length = length;
   }
   result.energy = F;
   return result;

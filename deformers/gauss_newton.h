@@ -1,8 +1,8 @@
 #pragma once
 /// Gauss-Newton with a factor that is kept: minimises F(x) = f'f by steps -(J'J)^-1 J'f [Sumner et al. 2007, eq. 10-12;
 /// Madsen, Nielsen, Tingleff 2004]. F never rises: a step that would raise it is halved. A factor of J'J serves several
-/// iterations (and solves) until progress slows, because a solve with it costs a tenth of making it; the limit is the
-/// same, since the gradient is always exact.
+/// iterations (and solves) until progress slows, because a step with it costs a tenth of making it; limited-memory BFGS
+/// around it makes up for what it lacks. The limit is the same, since the gradient is always exact.
 
 #include <functional>
 #include <vector>

@@ -94,7 +94,7 @@ void GraphEnergy::build(std::span<const Vec3> nodes, std::span<const std::pair<I
     row_offsets_.push_back(entries_.size());
     handle_points_.push_back(handle.v);
   }
-  rhs_.assign(handles.size(), Vec3::Zero());
+  rhs_.assign(handles.size(), Vec4::Zero());
   build_A();
 }
 
@@ -121,23 +121,33 @@ void GraphEnergy::build_A() {
 void GraphEnergy::set_targets(std::span<const Vec3> targets) {
   CHECK(targets.size() == handle_points_.size(), targets.size(), handle_points_.size());
   for (std::size_t l = 0; l < targets.size(); ++l)
-    rhs_[l] = std::sqrt(weights_.constraint) * (targets[l] - handle_points_[l]);
+    rhs_[l].head<3>() = std::sqrt(weights_.constraint) * (targets[l] - handle_points_[l]);
 }
 
-Vec3 GraphEnergy::residual(const GraphState& x, std::size_t row) const {
-  Vec3 r = row < regularization_rows_ ? Vec3(Vec3::Zero()) : Vec3(-rhs_[row - regularization_rows_]);
+std::vector<GraphEnergy::Mat4> GraphEnergy::displacements(const GraphState& x) {
+  std::vector<Mat4> D(x.R.size(), Mat4::Zero());
+  for (std::size_t j = 0; j < D.size(); ++j) {
+    D[j].topLeftCorner<3, 3>() = x.R[j] - Mat3::Identity();
+    D[j].topRightCorner<3, 1>() = x.t[j];
+  }
+  return D;
+}
+
+GraphEnergy::Vec4 GraphEnergy::residual(const std::vector<Mat4>& D, std::size_t row) const {
+  Vec4 r = row < regularization_rows_ ? Vec4(Vec4::Zero()) : Vec4(-rhs_[row - regularization_rows_]);
   for (std::size_t e = row_offsets_[row]; e < row_offsets_[row + 1]; ++e) {
-    const Entry& entry = entries_[e];
-    const Vec3 beta = entry.coefficients.head<3>();
-    r += x.R[entry.node] * beta - beta + entry.coefficients[3] * x.t[entry.node];
+    const Mat4& d = D[entries_[e].node];
+    const Vec4& c = entries_[e].coefficients;
+    r += c[0] * d.col(0) + c[1] * d.col(1) + c[2] * d.col(2) + c[3] * d.col(3);
   }
   return r;
 }
 
 GraphEnergy::Terms GraphEnergy::energy(const GraphState& x, bool rigid) const {
   Terms out;
+  const std::vector<Mat4> D = displacements(x);
   for (std::size_t row = 0; row + 1 < row_offsets_.size(); ++row)
-    (row < regularization_rows_ ? out.regularization : out.constraint) += residual(x, row).squaredNorm();
+    (row < regularization_rows_ ? out.regularization : out.constraint) += residual(D, row).squaredNorm();
   if (!rigid)
     for (const Index j : free_nodes_)
       for (int n = 0; n < 6; ++n) {
@@ -147,10 +157,11 @@ GraphEnergy::Terms GraphEnergy::energy(const GraphState& x, bool rigid) const {
   return out;
 }
 
-std::vector<GraphEnergy::Mat34> GraphEnergy::linear_gradient(const GraphState& x) const {
-  std::vector<Mat34> G(free_nodes_.size(), Mat34::Zero());
+std::vector<GraphEnergy::Mat4> GraphEnergy::linear_gradient(const GraphState& x) const {
+  const std::vector<Mat4> D = displacements(x);
+  std::vector<Mat4> G(free_nodes_.size(), Mat4::Zero());
   for (std::size_t row = 0; row + 1 < row_offsets_.size(); ++row) {
-    const Vec3 r = residual(x, row);
+    const Vec4 r = residual(D, row);
     for (std::size_t e = row_offsets_[row]; e < row_offsets_[row + 1]; ++e)
       G[unknown_of_[entries_[e].node]] += r * entries_[e].coefficients.transpose();
   }
@@ -159,9 +170,10 @@ std::vector<GraphEnergy::Mat34> GraphEnergy::linear_gradient(const GraphState& x
 
 void GraphEnergy::gradient_rigid(const GraphState& x, std::span<double> out) const {
   CHECK(out.size() == 6 * free_count(), out.size());
-  const std::vector<Mat34> G = linear_gradient(x);
+  const std::vector<Mat4> G = linear_gradient(x);
   for (std::size_t i = 0; i < G.size(); ++i) {
-    const Mat34 K = x.R[free_nodes_[i]].transpose() * G[i];  // sum of (R'r) [beta, b]
+    const Eigen::Matrix<double, 3, 4> K =
+        x.R[free_nodes_[i]].transpose() * G[i].topRows<3>();  // sum of (R'r) [beta, b]
     Eigen::Map<Eigen::Matrix<double, 6, 1>> g(out.data() + 6 * i);
     g << K(2, 1) - K(1, 2), K(0, 2) - K(2, 0), K(1, 0) - K(0, 1), K.col(3);  // beta x R'r, b R'r
   }
@@ -169,11 +181,11 @@ void GraphEnergy::gradient_rigid(const GraphState& x, std::span<double> out) con
 
 void GraphEnergy::gradient_affine(const GraphState& x, const std::vector<Mat3>& Q, std::span<double> out) const {
   CHECK(out.size() == 12 * free_count(), out.size());
-  const std::vector<Mat34> G = linear_gradient(x);
+  const std::vector<Mat4> G = linear_gradient(x);
   for (std::size_t i = 0; i < G.size(); ++i) {
     const Mat3& frame = Q[free_nodes_[i]];
-    Eigen::Map<Mat34> g(out.data() + 12 * i);
-    g = frame.transpose() * G[i];
+    Eigen::Map<Eigen::Matrix<double, 3, 4>> g(out.data() + 12 * i);
+    g = frame.transpose() * G[i].topRows<3>();
     const Mat3 S = frame.transpose() * x.R[free_nodes_[i]];
     Eigen::Map<Eigen::Matrix<double, 9, 1>> rotation(out.data() + 12 * i);
     for (int n = 0; n < 6; ++n) rotation += weights_.rotation * condition_residual(S, n) * condition_gradient(S, n);
@@ -250,9 +262,10 @@ GraphState GraphEnergy::step_affine(const GraphState& x, const std::vector<Mat3>
 }
 
 std::pair<double, double> GraphEnergy::handle_error(const GraphState& x) const {
+  const std::vector<Mat4> D = displacements(x);
   double sum = 0, largest = 0;
   for (std::size_t l = 0; l < rhs_.size(); ++l) {
-    const double square = residual(x, regularization_rows_ + l).squaredNorm() / weights_.constraint;
+    const double square = residual(D, regularization_rows_ + l).squaredNorm() / weights_.constraint;
     sum += square;
     largest = std::max(largest, square);
   }

@@ -88,25 +88,29 @@ class GraphEnergy {
   std::pair<double, double> handle_error(const GraphState& x) const;
 
  private:
-  using Mat34 = Eigen::Matrix<double, 3, 4>;
+  /// A vector of three padded to four, and [R - I | t] with a row of zeros: whole registers.
+  using Vec4 = Eigen::Vector4d;
+  using Mat4 = Eigen::Matrix4d;
   /// One node of a row: node (all m) and [beta, b], times the square root of the term's weight.
   struct Entry {
     Index node;
-    Eigen::Vector4d coefficients;
+    Vec4 coefficients;
   };
 
   void add_row(std::initializer_list<Entry> entries);
   void build_A();
+  static std::vector<Mat4> displacements(const GraphState& x);
   /// sum_rows r [beta, b] of each free node, for both linear terms.
-  std::vector<Mat34> linear_gradient(const GraphState& x) const;
-  Vec3 residual(const GraphState& x, std::size_t row) const;
+  std::vector<Mat4> linear_gradient(const GraphState& x) const;
+  Vec4 residual(const std::vector<Mat4>& D, std::size_t row) const;
 
   GraphWeights weights_;
   std::vector<Index> free_nodes_;
   std::vector<Index> unknown_of_;         ///< of each node, or none
   std::vector<std::size_t> row_offsets_;  ///< rows of eq. 7, then of eq. 8
   std::vector<Entry> entries_;
-  std::vector<Vec3> handle_points_, rhs_;  ///< v_l; sqrt(w_con) (q_l - v_l)
+  std::vector<Vec3> handle_points_;  ///< v_l
+  std::vector<Vec4> rhs_;            ///< sqrt(w_con) (q_l - v_l)
   std::size_t regularization_rows_ = 0;
   BlockMatrix A_;
 };
