@@ -22,7 +22,8 @@ Vec3 choose_origin(const Vec3& min, const Vec3& max) {
     const double centre = 0.5 * (min[c] + max[c]), extent = max[c] - min[c];
     // Within a quarter of the centre, every x lies in [origin/2, 2 origin]: the difference is exact. Rounding the
     // centre to 20 bits keeps it there and makes the origin a short number to read.
-    if (!(std::abs(centre) > 8 * extent) || centre == 0) continue;
+    // Beyond these limits the step would underflow to zero or the rounded centre overflow.
+    if (!(std::abs(centre) > 8 * extent) || std::abs(centre) < 1e-300 || std::abs(centre) > 1e300) continue;
     const double step = std::exp2(std::floor(std::log2(std::abs(centre))) - 20);
     origin[c] = std::round(centre / step) * step;
   }
@@ -30,11 +31,12 @@ Vec3 choose_origin(const Vec3& min, const Vec3& max) {
 }
 
 void set_origin(Shape& shape) {
-  CHECK(shape.origin.isZero(), shape.origin.transpose());
+  CHECK(shape.origin == Vec3::Zero(), shape.origin.transpose());
   const Bounds bounds = bounds_of(shape.positions);
   if (bounds.empty()) return;
   shape.origin = choose_origin(bounds.min, bounds.max);
-  if (shape.origin.isZero()) return;
+  // Exactly: isZero() would take a shape of picometres for one at zero.
+  if (shape.origin == Vec3::Zero()) return;
   for (Vec3& p : shape.positions) p -= shape.origin;
 }
 

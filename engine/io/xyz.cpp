@@ -104,7 +104,7 @@ bool are_unit_vectors(const Columns& columns, std::size_t first) {
   bool any = false;
   for (std::size_t i = 0; i < columns[first].size(); ++i) {
     const Vec3 n(columns[first][i], columns[first + 1][i], columns[first + 2][i]);
-    if (n.isZero() || n.hasNaN()) continue;
+    if (n == Vec3::Zero() || n.hasNaN()) continue;
     if (!(std::abs(n.norm() - 1) <= 1e-3)) return false;
     any = true;
   }
