@@ -15,5 +15,5 @@ target_link_libraries(sinew-samples PRIVATE sinew_samples CLI11::CLI11)
 # sinew, the command line: links no window system. CLI11 is seen by one file of each program.
 file(GLOB SINEW_SOURCES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/apps/sinew/*.cpp)
 add_executable(sinew ${SINEW_SOURCES})
-target_link_libraries(sinew PRIVATE sinew_document sinew_deformers CLI11::CLI11 fmt::fmt)
+target_link_libraries(sinew PRIVATE sinew_document sinew_deformers sinew_gpu CLI11::CLI11 fmt::fmt)
 set_source_files_properties(apps/sinew/command_line.cpp PROPERTIES COMPILE_DEFINITIONS SINEW_VERSION="${PROJECT_VERSION}")

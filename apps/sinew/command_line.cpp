@@ -43,10 +43,11 @@ int run_command_line(std::span<const Command> commands, int argc, char** argv) {
   std::function<int()> run;
   for (const Command& command : commands) {
     CLI::App* sub = app.add_subcommand(command.name, command.help);
-    sub->footer(std::string("Examples:\n") + command.examples);
+    sub->footer(std::string("Examples:\n") + command.examples + "\n");
     CliArguments arguments(*sub);
     sub->callback([&run, body = command.declare(arguments)] { run = body; });
   }
+  if (argc == 1) throw UsageError("expected a command, found none (see sinew --help)");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -1,6 +1,7 @@
 #include "apps/sinew/interrupt.h"
 
 #include <unistd.h>
+
 #include <csignal>
 #include <exception>
 
@@ -10,12 +11,13 @@ namespace sinew::app {
 
 namespace {
 
-volatile std::sig_atomic_t writing = 0, noted = 0;
+volatile std::sig_atomic_t held = 0, noted = 0;
 bool failed = false;
+std::string place;
 
 extern "C" void on_signal(int) {
   noted = 1;
-  if (writing == 0) _exit(Interrupted);
+  if (held == 0) _exit(Interrupted);
 }
 
 }  // namespace
@@ -34,19 +36,33 @@ bool interrupted() {
   return noted != 0;
 }
 
-Writing::Writing() : exceptions_(std::uncaught_exceptions()) {
-  writing = 1;
+HoldInterrupts::HoldInterrupts() {
+  held = held + 1;
 }
 
+HoldInterrupts::~HoldInterrupts() {
+  held = held - 1;
+  if (held == 0 && noted != 0 && std::uncaught_exceptions() == 0) _exit(Interrupted);
+}
+
+Writing::Writing() : exceptions_(std::uncaught_exceptions()) {}
+
 Writing::~Writing() {
-  if (std::uncaught_exceptions() > exceptions_)
-    failed = true;
-  else
-    writing = 0;
+  if (std::uncaught_exceptions() > exceptions_) failed = true;
 }
 
 bool writing_failed() {
   return failed;
+}
+
+Naming::Naming(std::string path) : path_(std::move(path)), exceptions_(std::uncaught_exceptions()) {}
+
+Naming::~Naming() {
+  if (std::uncaught_exceptions() > exceptions_) place = path_ + ": ";
+}
+
+std::string failed_place() {
+  return place;
 }
 
 }  // namespace sinew::app

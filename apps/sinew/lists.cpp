@@ -4,7 +4,6 @@
 #include "deformers/methods.h"
 #include "engine/document/json.h"
 #include "engine/io/io.h"
-#include "engine/io/text.h"
 
 namespace sinew::app {
 
@@ -22,7 +21,7 @@ int print_formats() {
 std::string range_of(const Setting& setting) {
   std::string out;
   if (setting.choices.empty()) {
-    out = io::shortest(setting.standard) + ", " + io::shortest(setting.min) + " to " + io::shortest(setting.max);
+    out = fmt::format("{:.12g}, {:.12g} to {:.12g}", setting.standard, setting.min, setting.max);
     return setting.unit.empty() ? out : out + " " + setting.unit;
   }
   for (std::size_t i = 0; i < setting.choices.size(); ++i)

@@ -23,6 +23,10 @@ constexpr Command commands[] = {
      "  sinew deform bun.conf --edit ears.json -o bent/           (one file a scan)\n"
      "  sinew deform plane.obj --edit lift.json -o bent.obj --set nodes=300 --report r.json --pose lift.pose",
      declare_deform},
+    {"apply", "Bends any other file of the same space with a solved edit, without solving",
+     "  sinew deform coarse.ply --edit lift.json -o bent.ply --pose lift.pose\n"
+     "  sinew apply lift.pose dense.ply -o dense-bent.ply",
+     declare_apply},
     {"diff", "Shows what changed between two files: point distances, attributes, everything else",
      "  sinew diff scan.ply bent.ply\n"
      "  sinew diff --json before.obj after.obj",
@@ -32,6 +36,11 @@ constexpr Command commands[] = {
      "  sinew convert bun.conf merged.ply\n"
      "  cat mesh.off | sinew convert - mesh.obj --from off",
      declare_convert},
+    {"render", "Draws a picture of a file, or of what an edit makes of it, without a display",
+     "  sinew render scan.ply -o scan.png\n"
+     "  sinew render plane.obj -o after.png --edit lift.json --show handles,fixed,ground --view iso --size 1600x900\n"
+     "  sinew render scan.ply -o above.png --view 0,5,0,0,0,0",
+     declare_render},
     {"formats", "Lists the formats that are read and written", "  sinew formats", declare_formats},
     {"methods", "Lists the methods of an edit and their settings", "  sinew methods\n  sinew methods --json",
      declare_methods},
@@ -51,7 +60,7 @@ int run(int argc, char** argv) {
   } catch (const io::Cancelled&) {
     return Interrupted;
   } catch (const InputError& error) {
-    message(error.what());
+    message(failed_place() + error.what());
     return interrupted() ? Interrupted : writing_failed() ? Failed : BadInput;
   } catch (const std::bad_alloc&) {
     message("expected enough memory, found too little");

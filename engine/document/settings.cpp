@@ -22,10 +22,16 @@ const Setting* find(const Method& method, const std::string& name) {
   return nullptr;
 }
 
+/// 100000 rather than 1e+05.
+std::string plain(double x) {
+  const bool whole = x == std::floor(x) && std::abs(x) < 1e15;
+  return whole ? std::to_string(static_cast<std::int64_t>(x)) : io::shortest(x);
+}
+
 std::string allowed(const Setting& setting) {
   if (!setting.choices.empty()) return "one of " + list(setting.choices, [](const std::string& c) { return c; });
-  return std::string(setting.integer ? "a whole number" : "a number") + " from " + io::shortest(setting.min) + " to " +
-         io::shortest(setting.max);
+  return std::string(setting.integer ? "a whole number" : "a number") + " from " + plain(setting.min) + " to " +
+         plain(setting.max);
 }
 
 double value_of(const SettingEdit& edit, const Setting& setting) {
@@ -38,7 +44,7 @@ double value_of(const SettingEdit& edit, const Setting& setting) {
                     (!setting.integer || *number == std::floor(*number));
   if (!fits)
     throw place_error(edit.place, "setting " + setting.name, allowed(setting) + " for \"" + setting.name + "\"",
-                      text != nullptr ? sinew::quoted(*text) : io::shortest(*number));
+                      text != nullptr ? sinew::quoted(*text) : plain(*number));
   return *number;
 }
 

@@ -1,0 +1,123 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "apps/sinew/command.h"
+#include "apps/sinew/files.h"
+#include "apps/sinew/interrupt.h"
+#include "apps/sinew/progress.h"
+#include "apps/sinew/scene.h"
+#include "deformers/methods.h"
+#include "engine/document/edit.h"
+#include "engine/document/settings.h"
+#include "engine/geometry/error.h"
+#include "engine/gpu/offscreen.h"
+#include "engine/gpu/png.h"
+#include "engine/io/text.h"
+
+namespace sinew::app {
+
+namespace {
+
+struct Options {
+  std::string input, from, png, edit, size = "1280x720", view = "iso", show, up = "y", point_size;
+  bool force = false;
+};
+
+int parse_side(const std::string& text, const std::string& whole) {
+  std::int64_t side = 0;
+  if (!io::parse(text, side) || side < 1 || side > 16384)
+    throw UsageError("--size: expected WIDTHxHEIGHT, each from 1 to 16384, found " + sinew::quoted(whole));
+  return static_cast<int>(side);
+}
+
+View view_of(const Options& options) {
+  View view;
+  view.name = options.view;
+  const std::size_t x = std::min(options.size.find('x'), options.size.size());
+  view.width = parse_side(options.size.substr(0, x), options.size);
+  view.height = parse_side(x < options.size.size() ? options.size.substr(x + 1) : "", options.size);
+  if (options.up != "y" && options.up != "z")
+    throw UsageError("--up: expected y or z, found " + sinew::quoted(options.up));
+  view.z_up = options.up == "z";
+  if (!options.point_size.empty() &&
+      !(io::parse(options.point_size, view.point_size) && view.point_size >= 1 && view.point_size <= 64))
+    throw UsageError("--point-size: expected 1 to 64 pixels, found " + sinew::quoted(options.point_size));
+  return view;
+}
+
+/// "graph,handles"
+std::set<std::string> shown(const std::string& text) {
+  std::set<std::string> out;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t comma = std::min(text.find(',', begin), text.size());
+    const std::string name = text.substr(begin, comma - begin);
+    std::string known;
+    for (const char* known_name : show_names) known += (known.empty() ? "" : ", ") + std::string(known_name);
+    if (std::find(std::begin(show_names), std::end(show_names), name) == std::end(show_names))
+      throw UsageError("--show: expected some of " + known + ", found " + sinew::quoted(name));
+    out.insert(name);
+    begin = comma + 1;
+  }
+  return out;
+}
+
+gpu::Picture draw(const Shape& input, const document::Evaluation* evaluation, const View& view,
+                  const std::set<std::string>& show) {
+  const std::unique_ptr<gpu::Device> device = gpu::create_device({});
+  const gpu::Paths paths = gpu::measure_paths(*device);
+  const gpu::RendererHandle renderer = gpu::create_renderer(*device, paths, gpu::offscreen_format);
+  const gpu::Offscreen offscreen =
+      gpu::create_offscreen(*device, {static_cast<std::uint32_t>(view.width), static_cast<std::uint32_t>(view.height)});
+  DrawnShape drawn;
+  fill_scene(*device, input, evaluation, view, show, drawn);
+  return gpu::render_picture(*device, *renderer, offscreen, drawn.scene);
+}
+
+int run(const Options& options) {
+  const View view = view_of(options);
+  const std::set<std::string> show = shown(options.show);
+  if (!options.png.ends_with(".png")) throw UsageError(options.png + ": expected a name that ends in .png");
+  check_output_text(options.png, options.force);
+  document::Project project;
+  if (!options.edit.empty()) {
+    project = document::read_edit(options.edit);
+    document::check_layers(project.layers, methods());
+  }
+  const std::shared_ptr<const Shape> input = read_input(options.input, options.from);
+  std::optional<document::Evaluation> evaluation;
+  if (!options.edit.empty()) {
+    Progress progress("");
+    evaluation =
+        document::evaluate(input, project.layers, methods(), {[&](const char* what, std::size_t layer, double f) {
+                             return progress(fmt::format("{} layer {}", what, layer + 1), f);
+                           }});
+  }
+  const gpu::Picture picture = draw(*input, evaluation ? &*evaluation : nullptr, view, show);
+  const Writing writing;
+  gpu::write_png(options.png, picture);
+  return Ok;
+}
+
+}  // namespace
+
+std::function<int()> declare_render(Arguments& arguments) {
+  const auto options = std::make_shared<Options>();
+  arguments.positional("INPUT", options->input, "File to draw; - with --from");
+  arguments.option("-o,--output", "PNG", options->png, "Picture to write", true);
+  arguments.option("-e,--edit", "EDIT.json", options->edit, "Draw the shape bent by this edit");
+  arguments.option("--size", "WxH", options->size, "Pixels; 1280x720 without");
+  arguments.option("--view", "VIEW", options->view,
+                   "front, back, left, right, top, bottom, iso (without), or eye and target ex,ey,ez,tx,ty,tz");
+  arguments.option("--show", "LIST", options->show,
+                   "Some of graph, handles, fixed, rest (the shape before, faintly), ground; with commas");
+  arguments.option("--up", "AXIS", options->up, "y (without) or z: what is up in the picture");
+  arguments.option("--point-size", "PIXELS", options->point_size, "Diameter of points; without, from their number");
+  arguments.option("--from", "EXT", options->from, "Format of standard input, by an extension");
+  arguments.flag("--force", options->force, "Replace PNG where it exists");
+  return [options] { return run(*options); };
+}
+
+}  // namespace sinew::app

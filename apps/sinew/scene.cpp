@@ -1,0 +1,169 @@
+#include "apps/sinew/scene.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "apps/sinew/command.h"
+#include "engine/geometry/error.h"
+#include "engine/geometry/topology.h"
+#include "engine/io/text.h"
+#include "shaders/shared.h"
+
+namespace sinew::app {
+
+namespace {
+
+/// The file's normals, one a point; else those of the faces; else none.
+std::vector<Vec3> normals_of(const Shape& shape) {
+  for (const Attribute& attribute : shape.attributes) {
+    if (attribute.kind != Kind::Normal || !attribute.per_point() || attribute.components != 3) continue;
+    std::vector<Vec3> out(shape.size());
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = Vec3(attribute.number(i, 0), attribute.number(i, 1), attribute.number(i, 2));
+    return out;
+  }
+  return shape.faces.empty() ? std::vector<Vec3>{} : vertex_normals(shape);
+}
+
+/// The file's colours: bytes as they are, other whole types by their range, floats 0..1.
+std::vector<gpu::PointColor> colors_of(const Shape& shape) {
+  std::vector<gpu::PointColor> out(shape.size());
+  for (const Attribute& a : shape.attributes) {
+    if (a.kind != Kind::Color || !a.per_point() || a.components < 3) continue;
+    const double scale = a.type == Type::UInt8 ? 1 : a.type == Type::UInt16 ? 1.0 / 257 : 255;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      const auto byte = [&](int c) {
+        const double x = a.number(i, c) * scale;
+        return static_cast<std::uint8_t>(x > 0 ? std::min(255.0, x + 0.5) : 0);
+      };
+      out[i] = {byte(0), byte(1), byte(2), 0};
+    }
+    break;
+  }
+  return out;
+}
+
+/// Six numbers, eye and target in the file's coordinates.
+bool parse_eye(const std::string& text, const Vec3& origin, gpu::Camera& camera) {
+  double numbers[6];
+  std::size_t begin = 0;
+  for (int i = 0; i < 6; ++i) {
+    const std::size_t comma = text.find(',', begin);
+    if ((comma == std::string::npos) != (i == 5)) return false;
+    if (!io::parse(text.substr(begin, comma - begin), numbers[i]) || !std::isfinite(numbers[i])) return false;
+    begin = comma + 1;
+  }
+  camera.eye = Vec3(numbers[0], numbers[1], numbers[2]) - origin;
+  camera.target = Vec3(numbers[3], numbers[4], numbers[5]) - origin;
+  return camera.distance() > 0;
+}
+
+gpu::Camera camera_of(const View& view, const Bounds& bounds, const Vec3& origin) {
+  gpu::Camera camera;
+  const gpu::UpAxis up = view.z_up ? gpu::UpAxis::Z : gpu::UpAxis::Y;
+  camera.up = gpu::up_vector(up);
+  if (gpu::look_from(camera, view.name, up)) {
+    gpu::frame_bounds(camera, bounds, static_cast<double>(view.width) / view.height, 1.1);
+    return camera;
+  }
+  if (!parse_eye(view.name, origin, camera))
+    throw UsageError("--view: expected front, back, left, right, top, bottom, iso or ex,ey,ez,tx,ty,tz, found " +
+                     sinew::quoted(view.name));
+  const Vec3 look = (camera.target - camera.eye).normalized();
+  if (look.cross(camera.up).norm() < 1e-6) camera.up = view.z_up ? Vec3(0, 1, 0) : Vec3(0, 0, -1);
+  gpu::fit_depth(camera, bounds);
+  return camera;
+}
+
+/// So wide that neighbours meet where the points cover about a third of the picture as a surface.
+double size_of_points(const View& view, std::size_t count) {
+  if (view.point_size > 0) return view.point_size;
+  const double covered = 0.3 * view.width * view.height;
+  return std::clamp(1.4 * std::sqrt(covered / static_cast<double>(std::max<std::size_t>(1, count))), 1.5, 12.0);
+}
+
+void mark(std::vector<gpu::PointColor>& colors, std::span<const Index> points, unsigned bit) {
+  for (const Index i : points) colors[i].marks = static_cast<std::uint8_t>(colors[i].marks | bit);
+}
+
+/// A ball at the mean of each handle's bent points.
+void add_handles(const document::LayerResult& layer, const Shape& bent, gpu::Scene& scene) {
+  for (const Handle& handle : layer.constraints.handles) {
+    Vec3 sum = Vec3::Zero();
+    for (const Index i : handle.points) sum += bent.positions[i];
+    scene.dots.push_back(gpu::handle_dot(sum / static_cast<double>(handle.points.size()), scene.look.handle));
+  }
+}
+
+/// Lines and dots of the method's own structure, carried along by the pose.
+void add_structure(const Deformer::Structure& structure, const Pose& pose, gpu::Scene& scene) {
+  std::vector<Vec3> at(structure.vertices.size());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const Affine& map = pose[structure.maps[i]];
+    at[i] = map.leftCols<3>() * structure.vertices[i] + map.col(3);
+  }
+  for (const auto& [a, b] : structure.edges) {
+    gpu::Line line;
+    line.from = at[a];
+    line.to = at[b];
+    line.color = gpu::Color::hex(0xffffff, 0.35);
+    line.hidden = 0.4;
+    scene.lines.push_back(line);
+  }
+  for (const Vec3& p : at) {
+    gpu::Dot dot;
+    dot.position = p;
+    dot.color = gpu::Color::hex(0xffffff, 0.9);
+    dot.radius = 2;
+    dot.hidden = 0.5;
+    scene.dots.push_back(dot);
+  }
+}
+
+}  // namespace
+
+void fill_scene(const gpu::Device& device, const Shape& input, const document::Evaluation* evaluation, const View& view,
+                const std::set<std::string>& show, DrawnShape& out) {
+  const Shape& shape = evaluation != nullptr ? *evaluation->shape : input;
+  Bounds bounds = bounds_of(shape.positions);
+  const bool rest = evaluation != nullptr && show.contains("rest");
+  if (rest) {
+    const Bounds more = bounds_of(input.positions);
+    if (!more.empty()) {
+      bounds.add(more.min);
+      bounds.add(more.max);
+    }
+  }
+  std::vector<gpu::PointColor> colors = colors_of(shape);
+  out.scene.up = view.z_up ? gpu::UpAxis::Z : gpu::UpAxis::Y;
+  out.scene.camera = camera_of(view, bounds, shape.origin);
+  out.scene.ground = gpu::ground_below(bounds, out.scene.up);
+  out.scene.ground.show = show.contains("ground");
+  if (evaluation != nullptr) {
+    for (std::size_t i = 0; i < evaluation->layers.size(); ++i) {
+      const document::LayerResult& layer = evaluation->layers[i];
+      if (show.contains("fixed")) mark(colors, layer.constraints.fixed, gpu::shared::mark_fixed);
+      if (show.contains("handles")) {
+        for (const Handle& handle : layer.constraints.handles) mark(colors, handle.points, gpu::shared::mark_handle);
+        add_handles(layer, shape, out.scene);
+      }
+      if (show.contains("graph")) add_structure(evaluation->structures[i], *layer.pose, out.scene);
+    }
+  }
+  const double size = size_of_points(view, shape.size());
+  const auto add = [&](gpu::Points& points, const Shape& of, bool ghost) {
+    points = gpu::create_points(device, false, of.positions, normals_of(of));
+    if (!ghost) gpu::set_colors(points, colors);
+    const double opacity = ghost ? 0.25 : 0;
+    if (of.faces.empty())
+      out.scene.clouds.push_back({.points = &points, .size = size, .ghost = opacity});
+    else
+      out.scene.meshes.push_back({.points = &points, .triangles = &out.triangles, .ghost = opacity});
+  };
+  if (!shape.faces.empty()) out.triangles = gpu::create_triangles(device, triangles_of(shape.faces));
+  add(out.points, shape, false);
+  if (rest) add(out.rest_points, input, true);
+}
+
+}  // namespace sinew::app
