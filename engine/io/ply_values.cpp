@@ -7,7 +7,7 @@ namespace sinew::io {
 namespace {
 
 std::string range_of(Type type) {
-  return with_type(type, [type](auto t) -> std::string {
+  return with_type(type, [](auto t) -> std::string {
     using T = decltype(t);
     if constexpr (std::is_integral_v<T>) {
       return "a whole number from " + std::to_string(std::numeric_limits<T>::lowest()) + " to " +

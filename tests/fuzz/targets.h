@@ -1,0 +1,85 @@
+#pragma once
+/// What each fuzz target does with its bytes; the tests do the same with the seeds.
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/io/bytes.h"
+#include "engine/io/ply.h"
+#include "engine/io/scan_set.h"
+#include "engine/io/stl.h"
+#include "engine/io/values.h"
+#include "tests/fuzz/fuzz_format.h"
+
+namespace sinew::io {
+
+/// A new PLY file of `shape` holds its coordinates in the shape's type, and each value of its attributes.
+inline void check_new_ply(Shape shape) {
+  shape.content = nullptr;
+  WriteReport report;
+  const Shape again = read_ply("new", write_ply("new", shape, report), {});
+  CHECK(again.size() == shape.size() && again.faces.points == shape.faces.points);
+  CHECK(again.position_type == shape.position_type);
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    for (int c = 0; c < 3; ++c) {
+      const double x = shape.positions[i][c] + shape.origin[c], y = again.positions[i][c];
+      const double expected = shape.position_type == Type::Float32 ? static_cast<double>(static_cast<float>(x)) : x;
+      CHECK(y == expected || (std::isnan(y) && std::isnan(expected)), y, expected);
+    }
+  CHECK(again.attributes.size() == shape.attributes.size() && report.lost.empty());
+  for (std::size_t a = 0; a < shape.attributes.size(); ++a)
+    CHECK(again.attributes[a].values == shape.attributes[a].values, shape.attributes[a].name);
+}
+
+inline void fuzz_ply(std::span<const std::uint8_t> data) {
+  fuzz_format(read_ply, write_ply, data);
+  const auto bytes = std::as_bytes(data);
+  try {
+    Shape shape = read_ply("fuzz", {bytes.begin(), bytes.end()}, {});
+    set_origin(shape);
+    check_new_ply(std::move(shape));
+  } catch (const InputError&) {
+  }
+}
+
+inline void fuzz_stl(std::span<const std::uint8_t> data) {
+  fuzz_format(read_stl, write_stl, data);
+}
+
+/// A folder with two scans, "a.ply" and "b.obj", for the .conf files of the fuzzer; made anew for each process.
+inline const std::string& scan_folder() {
+  static const std::string folder = [] {
+    std::string name = (std::filesystem::temp_directory_path() / "sinew-fuzz-XXXXXX").string();
+    CHECK(mkdtemp(name.data()) != nullptr);
+    std::ofstream(name + "/a.ply") << "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+                                      "property float z\nproperty float nx\nproperty float ny\nproperty float nz\n"
+                                      "end_header\n1 2 3 0 0 1\n4 5 6 0 1 0\n";
+    std::ofstream(name + "/b.obj") << "v 0.5 0.25 2\nvn 1 0 0\nv 1 1 1\nvn 0 0 1\nv 3 4 5.5\nvn 0 1 0\n";
+    return name;
+  }();
+  return folder;
+}
+
+/// Scans that were not bent come back byte for byte, with the .conf, and can be bent and read again.
+inline void fuzz_scan_set(std::span<const std::uint8_t> data) {
+  const auto bytes = std::as_bytes(data);
+  try {
+    Shape shape = read_scan_set(scan_folder() + "/fuzz.conf", {bytes.begin(), bytes.end()}, {});
+    check_sound(shape);
+    set_origin(shape);
+    WriteReport report;
+    std::vector<NamedBytes> files = scan_set_files(shape, "", report);
+    CHECK(files.size() == shape.parts.size() + 1, files.size(), shape.parts.size());
+    for (std::size_t i = 0; i < shape.parts.size(); ++i)
+      CHECK(files[i].bytes == load_bytes(scan_folder() + "/" + shape.parts[i].path), files[i].name);
+    CHECK(std::equal(files.back().bytes.begin(), files.back().bytes.end(), bytes.begin(), bytes.end()));
+    for (Vec3& p : shape.positions) p += Vec3(1, 2, 3);
+    files = scan_set_files(shape, "", report);
+    for (std::size_t i = 0; i < shape.parts.size(); ++i)
+      CHECK(format_of(files[i].name).read("again", files[i].bytes, {}).size() == shape.parts[i].count, i);
+  } catch (const InputError&) {
+  }
+}
+
+}  // namespace sinew::io
