@@ -61,23 +61,23 @@ std::vector<Vec3> candidates(const Shape& shape, std::size_t count, std::uint64_
   return out;
 }
 
-/// A hash grid of cells as wide as the radius: all points within it lie in the 27 cells around.
+/// A hash grid of cells as wide as the radius. A kept point is entered in its cell and the 26 around: there are few of
+/// them, and a query then looks at one cell.
 class Grid {
  public:
   explicit Grid(double cell) : cell_(cell) {}
 
   bool has_near(const std::vector<Vec3>& points, const Vec3& p) const {
+    const auto found = cells_.find(key(p));
+    return found != cells_.end() && std::any_of(found->second.begin(), found->second.end(), [&](std::size_t i) {
+             return (points[i] - p).squaredNorm() <= cell_ * cell_;
+           });
+  }
+  void add(const Vec3& p, std::size_t i) {
     for (int x = -1; x <= 1; ++x)
       for (int y = -1; y <= 1; ++y)
-        for (int z = -1; z <= 1; ++z) {
-          const auto found = cells_.find(key(p + cell_ * Vec3(x, y, z)));
-          if (found == cells_.end()) continue;
-          for (const std::size_t i : found->second)
-            if ((points[i] - p).squaredNorm() <= cell_ * cell_) return true;
-        }
-    return false;
+        for (int z = -1; z <= 1; ++z) cells_[key(p + cell_ * Vec3(x, y, z))].push_back(i);
   }
-  void add(const Vec3& p, std::size_t i) { cells_[key(p)].push_back(i); }
 
  private:
   std::uint64_t key(const Vec3& p) const {
@@ -124,8 +124,15 @@ std::vector<Vec3> sample_nodes(const Shape& shape, std::size_t count, std::uint6
   const std::vector<Vec3> points = candidates(shape, count, seed, unit);
   if (points.empty() || count == 0) return {};
 
-  double low = 1e-6, high = 1;  // radii that keep at least `count`, and fewer
+  // A surface of area about 1/2 under a diagonal of 1 takes this radius; from there to one that keeps enough.
+  double low = 0.7 / std::sqrt(static_cast<double>(count)), high = 2;
   std::vector<Vec3> nodes = keep_apart(points, low);
+  while (nodes.size() < count && low > 1e-6) {
+    high = low;
+    low *= 0.7;
+    nodes = keep_apart(points, low);
+  }
+  // Bisection: `low` keeps at least `count`, `high` fewer.
   for (int step = 0; step < 40 && nodes.size() > count && high - low > 1e-4 * low; ++step) {
     const double middle = std::sqrt(low * high);
     std::vector<Vec3> kept = keep_apart(points, middle);

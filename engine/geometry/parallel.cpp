@@ -44,13 +44,18 @@ struct Loop {
 
 thread_local bool inside_loop = false;
 
-/// Workers that sleep between loops. One loop at a time; a second caller waits for the first.
+/// Workers that sleep between loops. One loop at a time; a second caller does its own alone, so that a window never waits
+/// for the solver.
 class Pool {
  public:
   ~Pool() { resize(0); }
 
   void run(Loop& loop, int helpers) {
-    const std::lock_guard one_loop(caller_);
+    const std::unique_lock one_loop(caller_, std::try_to_lock);
+    if (!one_loop) {
+      loop.run();
+      return;
+    }
     if (static_cast<int>(workers_.size()) != helpers) resize(helpers);
     {
       const std::lock_guard lock(mutex_);

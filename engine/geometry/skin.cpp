@@ -80,7 +80,9 @@ void skin_points(const SkinWeights& weights, const Pose& pose, std::span<const V
         d += static_cast<double>(weights.weights[e]) *
              (m.col(0) * p.x() + m.col(1) * p.y() + m.col(2) * p.z() + m.col(3));
       }
-      out[i] = p + d.head<3>();
+      // What does not move keeps its bits, -0 and NaN too.
+      const bool moves = (d.array() != 0).any() && p.allFinite();
+      out[i] = moves ? Vec3(p + d.head<3>()) : p;
     }
   });
 }
