@@ -17,3 +17,25 @@ file(GLOB SINEW_SOURCES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/apps/sinew/*.cpp)
 add_executable(sinew ${SINEW_SOURCES})
 target_link_libraries(sinew PRIVATE sinew_document sinew_deformers sinew_gpu CLI11::CLI11 fmt::fmt)
 set_source_files_properties(apps/sinew/command_line.cpp PROPERTIES COMPILE_DEFINITIONS SINEW_VERSION="${PROJECT_VERSION}")
+
+# The editor without its window: everything that can be tested without a display.
+set(SINEW_EDITOR_CORE background commands figures keys lod manipulation marks navigation point_set preferences repeatable
+                      session session_drag session_edit session_files tools view)
+list(TRANSFORM SINEW_EDITOR_CORE PREPEND ${CMAKE_SOURCE_DIR}/apps/editor/)
+list(TRANSFORM SINEW_EDITOR_CORE APPEND .cpp)
+add_library(sinew_editor_core STATIC ${SINEW_EDITOR_CORE})
+target_link_libraries(sinew_editor_core PUBLIC sinew_document sinew_deformers sinew_gpu PRIVATE fmt::fmt)
+
+# sinew-editor, the window: the rest of apps/editor.
+if(SINEW_EDITOR AND EXISTS ${CMAKE_SOURCE_DIR}/apps/editor/main.cpp)
+  find_package(PkgConfig REQUIRED)
+  find_package(glfw3 3.3 REQUIRED CONFIG)
+  pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
+  file(GLOB SINEW_EDITOR_SOURCES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/apps/editor/*.cpp)
+  list(REMOVE_ITEM SINEW_EDITOR_SOURCES ${SINEW_EDITOR_CORE})
+  add_executable(sinew-editor ${SINEW_EDITOR_SOURCES})
+  target_link_libraries(sinew-editor PRIVATE sinew_editor_core PkgConfig::IMGUI glfw CLI11::CLI11 fmt::fmt)
+  target_compile_definitions(sinew-editor PRIVATE SINEW_VERSION="${PROJECT_VERSION}")
+  # Events and Vulkan's structures are begun with some of their members; the rest is zero.
+  target_compile_options(sinew-editor PRIVATE -Wno-missing-field-initializers)
+endif()

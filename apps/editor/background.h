@@ -16,6 +16,10 @@ namespace sinew::editor {
 /// Says 0..1 (below 0: unknown); false: stop as soon as can be, by returning or by throwing io::Cancelled.
 using Tell = std::function<bool(double)>;
 
+/// What went wrong in `work`, as a sentence; empty where nothing did. With the solver's thread the one place of the
+/// editor where exceptions end.
+std::string sentence_of_failure(const std::function<void()>& work);
+
 class Background {
  public:
   /// What is to be done on the window's thread when the work is done.

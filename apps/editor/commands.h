@@ -15,7 +15,7 @@
 
 namespace sinew::editor {
 
-enum class Request { Open, SaveAs, Export, Palette, Keymap, About, Preferences, NavigationChoice, Quit };
+enum class Request { Open, SaveAs, Export, Screenshot, Palette, Keymap, About, Preferences, NavigationChoice, Quit };
 
 /// All that a command may touch.
 struct Context {
@@ -39,6 +39,9 @@ struct Command {
 
 std::span<const Command> commands();
 const Command* find_command(std::string_view id);
+
+/// The chords of `shortcut`, for showing and matching.
+std::vector<Chord> shortcuts_of(const Command& command);
 
 /// The enabled command of a pressed key; null where there is none. Commands come first to last: of two with one
 /// shortcut the first that is enabled.

@@ -24,9 +24,10 @@ struct StatusFigures {
   std::string message;  ///< of the solver; or empty
 };
 
-/// `stride` 1: from all points; otherwise from every stride-th, with `moved` scaled up.
+/// `diagonal`: of the input's rest points. `stride` 1: from all points; otherwise from every stride-th, with `moved`
+/// scaled up.
 StatusFigures figures_of(const Shape& input, std::span<const document::LayerResult> layers, std::size_t chosen_layer,
-                         std::size_t stride);
+                         double diagonal, std::size_t stride);
 
 /// A stride that leaves at most 4096 points.
 std::size_t sample_stride(std::size_t points);

@@ -84,7 +84,7 @@ class Manipulation {
   std::optional<double> typed() const;
 
   Gizmo gizmo_;
-  GizmoPart part_, began_with_;
+  GizmoPart part_;
   Eigen::Vector2d last_, begin_, cursor_;  ///< cursor_: last_, slowed where Shift was held
   gpu::Camera camera_;
   Eigen::Vector2d size_{0, 0};

@@ -40,6 +40,10 @@ document::Layer marked(const document::Layer& layer, const LayerPoints& points, 
 
 document::Layer without_handle(const document::Layer& layer, std::size_t handle);
 
+/// Rotations about the mean of a handle's points name it: `centres` of each handle where the layer starts from, world.
+/// So the motion stays what it is when the handle loses points.
+document::Layer with_pivots(const document::Layer& layer, std::span<const Vec3> centres, const Vec3& origin);
+
 /// `before`, then `by`, as few members as can be: a move stays a move, turns about one axis add their degrees.
 /// `centre`: mean of the handle's points where the layer starts from, world; `origin`: the input's.
 document::Motion moved(const document::Motion& before, const RigidMotion& by, const Vec3& centre, const Vec3& origin);
@@ -51,6 +55,8 @@ document::Motion rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to,
 /// Points of the input after the first layers of an answer: all results whose `layer` is below `end`. indices: which.
 std::vector<Vec3> bent(const Shape& input, std::span<const document::LayerResult> layers, std::size_t end,
                        std::span<const Index> indices);
+/// The product of a point's blended matrices over all layers, and where the point is; `rest`: where it rests.
+Mat3 bent_matrix(std::span<const document::LayerResult> layers, const Vec3& rest, std::size_t i, Vec3& position);
 /// All of them; out: n.
 void bend_all(const Shape& input, std::span<const document::LayerResult> layers, std::span<Vec3> out);
 

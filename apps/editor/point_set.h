@@ -54,6 +54,7 @@ SelectMode select_mode(int modifiers);
 /// Both of the same n.
 PointSet combined(const PointSet& selection, const PointSet& touched, SelectMode mode);
 
+PointSet intersected(const PointSet& a, const PointSet& b);
 PointSet inverted(const PointSet& selection, const PointSet& selectable);
 /// All points with finite coordinates: what can be selected.
 PointSet finite_points(std::span<const Vec3> positions);

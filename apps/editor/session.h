@@ -22,6 +22,7 @@
 #include "apps/editor/figures.h"
 #include "apps/editor/marks.h"
 #include "apps/editor/point_set.h"
+#include "apps/editor/repeatable.h"
 #include "engine/document/history.h"
 #include "engine/document/solver_thread.h"
 #include "engine/geometry/bounds.h"
@@ -104,6 +105,9 @@ class Session {
   std::span<const Vec3> bent_positions();
   /// Changes with every change of bent_positions().
   std::uint64_t bent_version() const { return bent_version_; }
+  /// Tickets of the newest request to the solver and of the drag's newest answer that is shown.
+  std::uint64_t asked() const { return ticket_; }
+  std::uint64_t shown_ticket() const { return shown_ticket_; }
   /// Bits of shared.h a point; n.
   const std::vector<std::uint8_t>& point_marks();
   const Bounds& rest_bounds() const { return bounds_; }
@@ -186,14 +190,18 @@ class Session {
  private:
   struct Drag {
     std::size_t handle = 0;
-    document::Project before, now;
-    Vec3 centre = Vec3::Zero();  ///< mean of the handle's points where the layer starts
+    document::Project now;
+    Vec3 centre = Vec3::Zero();                ///< mean of the handle's points where the layer starts
+    std::uint64_t first_ticket = 0;            ///< of its requests
+    std::vector<document::LayerResult> shown;  ///< before it began
+    bool moved = false;
   };
   /// The end of a drag on its way to the canonical answer.
   struct Settling {
     enum class Step { FromRest, FromDrag } step = Step::FromRest;
     std::size_t layer = 0;                                  ///< that was dragged
     std::vector<document::LayerResult> dragged, from_rest;  ///< shown when the drag ended; the first answer
+    document::Project project;                              ///< with the drag's pose as Layer::start
   };
   struct Opened;
   /// What waits until the answer is settled.
@@ -209,21 +217,22 @@ class Session {
   void project_changed();
   void ask(SolveOptions::Quality quality, const document::Project& project);
   void take_answer(document::SolveAnswer answer);
-  void show_answer(document::SolveAnswer answer);
-  void settle(document::SolveAnswer answer);
-  void amend(document::Project project);
+  void show_answer(std::vector<document::LayerResult> layers);
+  void settle(std::vector<document::LayerResult> layers);
+  void measure();
   bool settled() const;
   void start_waiting();
+  void finish_waiting();
   void save_now(const Waiting& waiting);
   void export_now(const Waiting& waiting);
   void with_neighbourhood(std::function<void()> then);
   void take_background();
   const LayerPoints& layer_points();
-  std::vector<Vec3> handle_rest_centres();
+  const std::vector<Vec3>& handle_rest_centres();
+  document::Layer standard_layer() const;
   void selection_changed();
   bool refuse(const std::function<void()>& check);
 
-  std::span<const Method> plain_methods_;
   std::vector<Method> methods_;  ///< repeatable
   std::function<void()> wake_;
 
@@ -232,6 +241,7 @@ class Session {
   Bounds bounds_;
   document::History history_{document::Project{}};
   document::Project saved_;
+  bool dirty_ = false;
   std::vector<std::string> lost_;
   std::size_t layer_ = 0;
   std::optional<std::size_t> handle_;
@@ -242,12 +252,13 @@ class Session {
   std::optional<Drag> drag_;
   std::optional<Settling> settling_;
   std::uint64_t ticket_ = 0;        ///< of the newest request
+  std::uint64_t shown_ticket_ = 0;
   std::uint64_t final_ticket_ = 0;  ///< of the newest one that asked for Quality::Final
   bool answered_ = true;            ///< the newest final request has its finished answer
   std::vector<document::LayerResult> shown_;
   std::vector<Vec3> bent_;
   bool bent_ready_ = false;
-  std::uint64_t bent_version_ = 1;
+  std::uint64_t bent_version_ = 1, measured_version_ = 0;
   std::vector<std::uint8_t> marks_;
   bool marks_ready_ = false;
   StatusFigures figures_;
@@ -259,7 +270,7 @@ class Session {
   std::vector<std::function<void()>> after_neighbourhood_;
   std::optional<std::string> next_open_;
   std::vector<Waiting> waiting_;
-  std::unique_ptr<Background> background_;
+  std::unique_ptr<Background> background_, measuring_;
   std::unique_ptr<document::SolverThread> solver_;  ///< last: it goes first
 };
 

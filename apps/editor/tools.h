@@ -46,6 +46,10 @@ class ScreenPoints {
   /// Distance along the view, in the shape's unit.
   float depth(std::size_t i) const { return depth_[i]; }
 
+  /// Length that one pixel covers at a depth.
+  float pixel_length(float depth) const;
+  const Eigen::Vector2d& picture_size() const { return size_; }
+
   std::span<const float> x() const { return x_; }
   std::span<const float> y() const { return y_; }
   /// Points that nothing stands before, of those within `rect` (others are in or out as it comes).

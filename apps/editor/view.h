@@ -37,4 +37,23 @@ struct View {
   bool modal = false;
 };
 
+class Session;
+
+/// The gizmo of the chosen handle, as tool and space say; nothing where none is chosen.
+std::optional<Gizmo> gizmo_of(Session& session, const View& view);
+
+/// Begins a drag of the chosen handle at the mouse; false where none is chosen. `modal`: by a key.
+bool begin_manipulation(Session& session, View& view, GizmoKind kind, GizmoPart part, bool modal);
+/// For each motion of the mouse: moves the handle.
+void update_manipulation(Session& session, View& view, int modifiers);
+/// After press(), confirm() or cancel() of View::manipulation: hands its motion to the session, and ends both where it
+/// is over.
+void follow_manipulation(Session& session, View& view);
+
+/// A tenth of the ground's cell: the step of Ctrl.
+double snap_length(const Session& session);
+
+/// Starts View::glide from the present camera.
+void glide_to(View& view, const gpu::Camera& camera);
+
 }  // namespace sinew::editor

@@ -1,0 +1,262 @@
+#include "apps/editor/marks.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+
+#include "engine/geometry/skin.h"
+#include "shaders/shared.h"
+
+namespace sinew::editor {
+
+namespace {
+
+using document::HandleEdit;
+using document::Layer;
+using document::LayerResult;
+using document::Motion;
+using document::Rotation;
+using document::SelectIndices;
+using document::Selection;
+using document::Shared;
+
+Mat3 matrix_of(const Vec3& axis, double degrees) {
+  return Eigen::AngleAxisd(degrees * (std::numbers::pi / 180), axis.stableNormalized()).toRotationMatrix();
+}
+
+Selection selection_of(std::vector<Index> points) {
+  return {SelectIndices{Shared<Index>(std::move(points))}, {}};
+}
+
+bool any_in(std::span<const Index> points, const PointSet& set) {
+  return std::any_of(points.begin(), points.end(), [&](Index i) { return set[i]; });
+}
+
+std::vector<Index> without(std::span<const Index> points, const PointSet& set) {
+  std::vector<Index> out;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(out), [&](Index i) { return !set[i]; });
+  return out;
+}
+
+/// The fixed selections after marking: those that were drawn as boxes or spheres stay what they are where they can.
+std::vector<Selection> fixed_after(const Layer& layer, const LayerPoints& points, const PointSet& set, bool fix) {
+  std::vector<Selection> out;
+  PointSet loose(set.size());
+  if (fix) loose = set;
+  for (std::size_t s = 0; s < layer.fixed.size(); ++s) {
+    const bool drawn = !std::holds_alternative<SelectIndices>(layer.fixed[s].what);
+    if (drawn && (fix || !any_in(points.fixed[s], set))) {
+      out.push_back(layer.fixed[s]);
+      for (const Index i : points.fixed[s])
+        if (loose[i]) loose.remove(i);
+    } else {
+      for (const Index i : points.fixed[s])
+        if (fix || !set[i]) loose.add(i);
+    }
+  }
+  if (!loose.empty()) out.push_back(selection_of(loose.indices()));
+  return out;
+}
+
+/// Removes `set` from a handle; its targets go with the points.
+HandleEdit handle_without(const HandleEdit& handle, std::span<const Index> points, const PointSet& set) {
+  HandleEdit out = handle;
+  out.points = selection_of(without(points, set));
+  if (const std::vector<Vec3>& to = handle.motion.to.get(); !to.empty()) {
+    std::vector<Vec3> kept;
+    for (std::size_t k = 0; k < points.size(); ++k)
+      if (!set[points[k]]) kept.push_back(to[k]);
+    out.motion.to = Shared<Vec3>(std::move(kept));
+  }
+  return out;
+}
+
+struct BentPoint {
+  Vec3 position;
+  Mat3 M;
+};
+
+}  // namespace
+
+Vec3 RigidMotion::operator()(const Vec3& p) const {
+  if (degrees == 0) return p + move;
+  return matrix_of(axis, degrees) * (p - pivot) + pivot + move;
+}
+
+LayerPoints points_of(const Layer& layer, document::Selector& selector) {
+  LayerPoints out;
+  for (const Selection& selection : layer.fixed) out.fixed.push_back(selector.points(selection));
+  for (const HandleEdit& handle : layer.handles)
+    out.handles.push_back(handle.motion.to.get().empty() ? selector.points(handle.points)
+                                                         : selector.points_as_written(handle.points));
+  return out;
+}
+
+Layer marked(const Layer& layer, const LayerPoints& points, const PointSet& set, Mark mark, const Motion& motion) {
+  Layer out = layer;
+  out.fixed = fixed_after(layer, points, set, mark == Mark::Fixed);
+  for (std::size_t h = layer.handles.size(); h-- > 0;) {
+    if (!any_in(points.handles[h], set)) continue;
+    out.handles[h] = handle_without(layer.handles[h], points.handles[h], set);
+    const bool empty = std::all_of(points.handles[h].begin(), points.handles[h].end(), [&](Index i) { return set[i]; });
+    if (empty) out = without_handle(out, h);
+  }
+  if (mark != Mark::Handle || set.empty()) return out;
+  HandleEdit handle;
+  handle.points = selection_of(set.indices());
+  handle.motion = motion;
+  const bool moves = motion.move || motion.rotate || motion.matrix || !motion.to.get().empty();
+  if (!moves) handle.motion.move = Vec3(0, 0, 0);
+  for (document::Key& key : out.keys)
+    if (key.handles.size() == out.handles.size()) key.handles.push_back(handle.motion);
+  out.handles.push_back(std::move(handle));
+  return out;
+}
+
+Layer without_handle(const Layer& layer, std::size_t handle) {
+  CHECK(handle < layer.handles.size(), handle, layer.handles.size());
+  Layer out = layer;
+  const auto at = static_cast<std::ptrdiff_t>(handle);
+  for (document::Key& key : out.keys)
+    if (key.handles.size() == out.handles.size()) key.handles.erase(key.handles.begin() + at);
+  out.handles.erase(out.handles.begin() + at);
+  return out;
+}
+
+Layer with_pivots(const Layer& layer, std::span<const Vec3> centres, const Vec3& origin) {
+  CHECK(centres.size() == layer.handles.size(), centres.size(), layer.handles.size());
+  Layer out = layer;
+  for (std::size_t h = 0; h < centres.size(); ++h)
+    if (auto& rotate = out.handles[h].motion.rotate; rotate && !rotate->about) rotate->about = centres[h] + origin;
+  return out;
+}
+
+Motion moved(const Motion& before, const RigidMotion& by, const Vec3& centre, const Vec3& origin) {
+  Motion out = before;
+  const bool turns = by.degrees != 0;
+  if (const std::vector<Vec3>& to = before.to.get(); !to.empty()) {
+    std::vector<Vec3> targets;
+    for (const Vec3& p : to) targets.push_back(by(p - origin) + origin);
+    out.to = Shared<Vec3>(std::move(targets));
+    return out;
+  }
+  const Vec3 move = before.move.value_or(Vec3(0, 0, 0));
+  if (!turns) {
+    out.move = Vec3(move + by.move);
+    return out;
+  }
+  const Mat3 R = matrix_of(by.axis, by.degrees);
+  if (before.matrix) {
+    Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
+    T.topLeftCorner<3, 3>() = R;
+    const Vec3 pivot = by.pivot + origin;
+    T.topRightCorner<3, 1>() = R * (move - pivot) + pivot + by.move;
+    out.matrix = T * *before.matrix;
+    out.move.reset();
+    return out;
+  }
+  // R (R1 (p - c) + c + m - pivot) + pivot + move = R R1 (p - c) + c + m', so the rotation keeps its own pivot c.
+  Rotation rotate = before.rotate.value_or(Rotation{by.axis, 0, std::nullopt});
+  const Vec3 c = rotate.about ? Vec3(*rotate.about - origin) : centre;
+  rotate.about = c + origin;
+  const Vec3 axis = rotate.axis.stableNormalized();
+  const double same = axis.dot(by.axis.stableNormalized());
+  if (rotate.degrees == 0 || std::abs(same) > 1 - 1e-12) {
+    rotate.axis = rotate.degrees == 0 ? by.axis : rotate.axis;
+    rotate.degrees += rotate.degrees == 0 || same > 0 ? by.degrees : -by.degrees;
+  } else {
+    const Eigen::AngleAxisd both(Mat3(R * matrix_of(rotate.axis, rotate.degrees)));
+    rotate.axis = both.axis();
+    rotate.degrees = both.angle() * (180 / std::numbers::pi);
+  }
+  out.rotate = rotate;
+  out.move = Vec3(R * (c + move - by.pivot) + by.pivot - c + by.move);
+  return out;
+}
+
+Motion rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to, double tolerance, const Vec3& origin) {
+  CHECK(from.size() == to.size() && !from.empty(), from.size(), to.size());
+  Motion out;
+  out.move = Vec3(0, 0, 0);
+  double farthest = 0;
+  for (std::size_t i = 0; i < from.size(); ++i) farthest = std::max(farthest, (to[i] - from[i]).norm());
+  if (farthest <= tolerance) return out;
+  const auto mean = [](std::span<const Vec3> points) {
+    return Vec3(std::accumulate(points.begin(), points.end(), Vec3(0, 0, 0)) / static_cast<double>(points.size()));
+  };
+  const Vec3 a = mean(from), b = mean(to);
+  Mat3 H = Mat3::Zero();
+  for (std::size_t i = 0; i < from.size(); ++i) H += (from[i] - a) * (to[i] - b).transpose();
+  const Eigen::JacobiSVD<Mat3> svd(H, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Mat3 D = Mat3::Identity();
+  D(2, 2) = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0 ? -1 : 1;
+  const Eigen::AngleAxisd turn(Mat3(svd.matrixV() * D * svd.matrixU().transpose()));
+  if (turn.angle() > 1e-9)
+    out.rotate = Rotation{turn.axis(), turn.angle() * (180 / std::numbers::pi), Vec3(a + origin)};
+  out.move = Vec3(b - a);
+  return out;
+}
+
+namespace {
+
+/// p + sum_j w_ij ((A_j - I) p + t_j), layer after layer, and the product of their matrices.
+BentPoint bend_one(const Vec3& rest, std::span<const LayerResult> layers, std::size_t end, std::size_t i) {
+  BentPoint out{rest, Mat3::Identity()};
+  for (const LayerResult& layer : layers) {
+    if (layer.layer >= end || layer.pose == nullptr || layer.weights == nullptr) continue;
+    Vec3 displacement(0, 0, 0);
+    Mat3 M = Mat3::Identity();
+    for (std::uint64_t e = layer.weights->offsets[i]; e < layer.weights->offsets[i + 1]; ++e) {
+      const Affine& A = (*layer.pose)[layer.weights->maps[e]];
+      const double w = layer.weights->weights[e];
+      const Mat3 change = w * (A.leftCols<3>() - Mat3::Identity());
+      displacement += change * out.position + w * A.col(3);
+      M += change;
+    }
+    out.position += displacement;
+    out.M = M * out.M;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<Vec3> bent(const Shape& input, std::span<const LayerResult> layers, std::size_t end,
+                       std::span<const Index> indices) {
+  std::vector<Vec3> out;
+  out.reserve(indices.size());
+  for (const Index i : indices) out.push_back(bend_one(input.positions[i], layers, end, i).position);
+  return out;
+}
+
+Mat3 bent_matrix(std::span<const LayerResult> layers, const Vec3& rest, std::size_t i, Vec3& position) {
+  const BentPoint point = bend_one(rest, layers, ~std::size_t{0}, i);
+  position = point.position;
+  return point.M;
+}
+
+void bend_all(const Shape& input, std::span<const LayerResult> layers, std::span<Vec3> out) {
+  std::span<const Vec3> in = input.positions;
+  for (const LayerResult& layer : layers) {
+    if (layer.pose == nullptr || layer.weights == nullptr) continue;
+    skin_points(*layer.weights, *layer.pose, in, out);
+    in = out;
+  }
+  if (in.data() != out.data()) std::copy(in.begin(), in.end(), out.begin());
+}
+
+std::vector<std::uint8_t> mark_bits(const LayerPoints& points, const PointSet& selection) {
+  std::vector<std::uint8_t> out(selection.size(), 0);
+  const auto mark = [&](const std::vector<std::vector<Index>>& lists, unsigned bit) {
+    for (const std::vector<Index>& list : lists)
+      for (const Index i : list) out[i] = static_cast<std::uint8_t>(out[i] | bit);
+  };
+  mark(points.fixed, gpu::shared::mark_fixed);
+  mark(points.handles, gpu::shared::mark_handle);
+  selection.each([&](std::size_t i) { out[i] = static_cast<std::uint8_t>(out[i] | gpu::shared::mark_selected); });
+  return out;
+}
+
+}  // namespace sinew::editor

@@ -1,0 +1,56 @@
+#include "apps/editor/repeatable.h"
+
+namespace sinew::editor {
+
+namespace {
+
+class Repeatable final : public Deformer {
+ public:
+  explicit Repeatable(std::unique_ptr<Deformer> inner) : inner_(std::move(inner)) {}
+
+  const SkinWeights& weights() const override { return inner_->weights(); }
+  SkinWeights bind(std::span<const Vec3> points) const override { return inner_->bind(points); }
+  const Pose& pose() const override { return inner_->pose(); }
+  Structure structure() const override { return inner_->structure(); }
+  Figures counts() const override { return inner_->counts(); }
+  std::vector<std::string> notes() const override { return inner_->notes(); }
+  std::vector<Table> binding() const override { return inner_->binding(); }
+
+  SolveReport solve(const Constraints& constraints, const SolveOptions& options) override {
+    if (options.quality == SolveOptions::Quality::Final) {
+      inner_->reset();
+      if (!start_.empty()) inner_->start_from(start_);
+    }
+    return inner_->solve(constraints, options);
+  }
+
+  void reset() override {
+    start_.clear();
+    inner_->reset();
+  }
+  void start_from(const Pose& pose) override {
+    start_ = pose;
+    inner_->start_from(pose);
+  }
+
+ private:
+  std::unique_ptr<Deformer> inner_;
+  Pose start_;  ///< empty: rest
+};
+
+}  // namespace
+
+std::vector<Method> repeatable(std::span<const Method> methods) {
+  std::vector<Method> out(methods.begin(), methods.end());
+  for (Method& method : out)
+    method.make = [make = method.make](std::shared_ptr<const Shape> rest, const Settings& settings,
+                                       std::span<const Index> given,
+                                       const std::function<bool(double)>& progress) -> std::unique_ptr<Deformer> {
+      std::unique_ptr<Deformer> inner = make(std::move(rest), settings, given, progress);
+      if (inner == nullptr) return nullptr;
+      return std::make_unique<Repeatable>(std::move(inner));
+    };
+  return out;
+}
+
+}  // namespace sinew::editor

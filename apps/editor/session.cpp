@@ -1,0 +1,193 @@
+#include "apps/editor/session.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "engine/document/settings.h"
+
+namespace sinew::editor {
+
+namespace {
+
+/// Layers that may move a point.
+bool any_on(const document::Project& project) {
+  return std::any_of(project.layers.begin(), project.layers.end(),
+                     [](const document::Layer& layer) { return layer.on; });
+}
+
+}  // namespace
+
+Session::Session(std::span<const Method> methods, std::function<void()> wake)
+    : methods_(repeatable(methods)),
+      wake_(std::move(wake)),
+      background_(std::make_unique<Background>(wake_)),
+      measuring_(std::make_unique<Background>(wake_)),
+      solver_(std::make_unique<document::SolverThread>(methods_, wake_)) {}
+
+Session::~Session() = default;
+
+Changed Session::poll() {
+  take_background();
+  while (std::optional<document::SolveAnswer> answer = solver_->answer()) take_answer(std::move(*answer));
+  start_waiting();
+  measure();
+  return std::exchange(changed_, {});
+}
+
+const document::Layer* Session::layer() const {
+  return layer_ < project().layers.size() ? &project().layers[layer_] : nullptr;
+}
+
+bool Session::solving() const {
+  return has_input() && !settled();
+}
+
+bool Session::settled() const {
+  return !drag_ && answered_ && !settling_;
+}
+
+/// Asks for an answer to `project`. Where it has no layer yet, the one that a first mark will make is prepared.
+void Session::ask(SolveOptions::Quality quality, const document::Project& project) {
+  if (!has_input()) return;
+  document::SolveRequest request;
+  request.ticket = ++ticket_;
+  request.input = input_;
+  request.layers = project.layers.empty() ? std::vector{standard_layer()} : project.layers;
+  request.quality = quality;
+  if (quality == SolveOptions::Quality::Final) {
+    final_ticket_ = ticket_;
+    answered_ = false;
+  }
+  solver_->ask(std::move(request));
+}
+
+void Session::take_answer(document::SolveAnswer answer) {
+  if (answer.input != input_ || !has_input()) return;
+  if (!answer.error.empty()) {
+    if (answer.ticket != ticket_) return;
+    notify(Severity::Error, answer.error);
+    answered_ = true;
+    settling_.reset();
+    return;
+  }
+  if (drag_) {
+    if (answer.ticket < drag_->first_ticket) return;
+    shown_ticket_ = answer.ticket;
+    show_answer(std::move(answer.layers));
+  } else if (answer.ticket == final_ticket_ && answer.final_quality) {
+    // Steps of a final solve are not shown: it begins at rest, and the shape would jump.
+    answered_ = true;
+    settle(std::move(answer.layers));
+  }
+}
+
+void Session::show_answer(std::vector<document::LayerResult> layers) {
+  const bool same_weights = std::equal(layers.begin(), layers.end(), shown_.begin(), shown_.end(),
+                                       [](const auto& a, const auto& b) { return a.weights == b.weights; });
+  const bool same_poses = same_weights && std::equal(layers.begin(), layers.end(), shown_.begin(), shown_.end(),
+                                                     [](const auto& a, const auto& b) { return a.pose == b.pose; });
+  shown_ = std::move(layers);
+  changed_.weights |= !same_weights;
+  if (!same_poses) {
+    changed_.pose = true;
+    bent_ready_ = false;
+    ++bent_version_;
+    if (layer_ > 0) handle_centres_.reset();
+  }
+  figures_ = figures_of(*input_, shown_, layer_, bounds_.diagonal(), sample_stride(input_->size()));
+  if (!any_on(project()) && !drag_) figures_ = {};
+}
+
+/// The figures of a settled answer, from all points, while nobody waits for them; the bent positions come with them.
+void Session::measure() {
+  if (const std::optional<Background::Outcome> outcome = measuring_->take(); outcome && outcome->finish)
+    outcome->finish();
+  if (!has_input() || !settled() || measuring_->busy() || measured_version_ == bent_version_) return;
+  measured_version_ = bent_version_;
+  measuring_->start("Measuring", false,
+                    [this, input = input_, layers = shown_, layer = layer_, diagonal = bounds_.diagonal(),
+                     version = bent_version_](const Tell&) -> Background::Finish {
+                      auto positions = std::make_shared<std::vector<Vec3>>(input->size());
+                      bend_all(*input, layers, *positions);
+                      const StatusFigures figures = figures_of(*input, layers, layer, diagonal, 1);
+                      return [this, positions, figures, version, layer] {
+                        if (version != bent_version_) return;
+                        bent_ = std::move(*positions);
+                        bent_ready_ = true;
+                        if (layer == layer_) figures_ = figures;
+                      };
+                    });
+}
+
+std::span<const Vec3> Session::bent_positions() {
+  if (!has_input()) return {};
+  if (!bent_ready_) {
+    bent_.resize(input_->size());
+    bend_all(*input_, shown_, bent_);
+    bent_ready_ = true;
+  }
+  return bent_;
+}
+
+const std::vector<std::uint8_t>& Session::point_marks() {
+  if (!marks_ready_) {
+    marks_ = mark_bits(layer_points(), selection_);
+    marks_ready_ = true;
+  }
+  return marks_;
+}
+
+Bounds Session::bent_bounds() {
+  return bounds_of(bent_positions());
+}
+
+Bounds Session::selection_bounds() {
+  Bounds out;
+  const std::span<const Vec3> positions = bent_positions();
+  selection_.each([&](std::size_t i) { out.add(positions[i]); });
+  if (out.empty() && handle_ && *handle_ < layer_points().handles.size())
+    for (const Index i : layer_points().handles[*handle_]) out.add(positions[i]);
+  return out;
+}
+
+std::vector<Notice> Session::hints() const {
+  std::vector<Notice> out;
+  if (!has_input()) return out;
+  if (const document::Layer* layer = this->layer(); layer != nullptr && layer->on) {
+    if (layer->handles.size() == 1 && layer->fixed.empty())
+      out.push_back({Severity::Hint, "A handle needs something fixed: select points that are to stay, and fix them."});
+    if (layer->handles.empty() && !layer->fixed.empty())
+      out.push_back({Severity::Hint, "Now select the points to pull, and make them a handle."});
+  }
+  if (!figures_.message.empty()) out.push_back({Severity::Warning, figures_.message});
+  return out;
+}
+
+std::vector<Notice> Session::take_notices() {
+  return std::exchange(notices_, {});
+}
+
+void Session::notify(Severity severity, std::string text) {
+  notices_.push_back({severity, std::move(text)});
+}
+
+/// Points of the chosen layer's marks; of no layer none.
+const LayerPoints& Session::layer_points() {
+  if (!layer_points_) {
+    LayerPoints points;
+    if (const document::Layer* chosen = layer(); chosen != nullptr && selector_ != nullptr)
+      if (!refuse([&] { points = points_of(*chosen, *selector_); })) points = {};
+    points.fixed.resize(layer() == nullptr ? 0 : layer()->fixed.size());
+    points.handles.resize(layer() == nullptr ? 0 : layer()->handles.size());
+    layer_points_ = std::move(points);
+  }
+  return *layer_points_;
+}
+
+bool Session::refuse(const std::function<void()>& check) {
+  const std::string failure = sentence_of_failure(check);
+  if (!failure.empty()) notify(Severity::Error, failure);
+  return failure.empty();
+}
+
+}  // namespace sinew::editor

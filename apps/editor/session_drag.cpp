@@ -1,0 +1,164 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numbers>
+#include <numeric>
+
+#include "apps/editor/session.h"
+
+namespace sinew::editor {
+
+namespace {
+
+using document::LayerResult;
+using document::Project;
+
+/// Lengths in units of the diagonal. Where the answer from rest is no farther than this from what the drag showed,
+/// nobody sees a change; an interactive answer differs from the final one by about 0.003.
+constexpr double seen = 0.01;
+/// Two final answers nearer than this are the same minimum.
+constexpr double same_minimum = 1e-3;
+
+/// The largest distance between two bendings of a shape, over a sample of its points.
+double distance_between(const Shape& input, std::span<const LayerResult> a, std::span<const LayerResult> b,
+                        std::size_t layers) {
+  std::vector<Index> sample;
+  for (std::size_t i = 0; i < input.size(); i += sample_stride(input.size()))
+    if (input.positions[i].allFinite()) sample.push_back(static_cast<Index>(i));
+  const std::vector<Vec3> p = bent(input, a, layers, sample), q = bent(input, b, layers, sample);
+  double out = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) out = std::max(out, (p[i] - q[i]).norm());
+  return out;
+}
+
+const LayerResult* result_of(std::span<const LayerResult> layers, std::size_t layer) {
+  const auto found = std::find_if(layers.begin(), layers.end(), [&](const auto& l) { return l.layer == layer; });
+  return found == layers.end() ? nullptr : &*found;
+}
+
+Vec3 mean_of(std::span<const Vec3> points) {
+  if (points.empty()) return Vec3(0, 0, 0);
+  return std::accumulate(points.begin(), points.end(), Vec3(0, 0, 0)) / static_cast<double>(points.size());
+}
+
+}  // namespace
+
+/// Means of the handles' points where the chosen layer starts from.
+const std::vector<Vec3>& Session::handle_rest_centres() {
+  if (!handle_centres_) {
+    std::vector<Vec3> centres;
+    for (const std::vector<Index>& points : layer_points().handles)
+      centres.push_back(mean_of(bent(*input_, shown_, layer_, points)));
+    handle_centres_ = std::move(centres);
+  }
+  return *handle_centres_;
+}
+
+std::vector<HandleView> Session::handles() {
+  std::vector<HandleView> out;
+  if (layer() == nullptr || !has_input()) return out;
+  const std::vector<Vec3>& centres = handle_rest_centres();
+  const document::Layer& layer = drag_ ? drag_->now.layers[layer_] : *this->layer();
+  for (std::size_t h = 0; h < layer.handles.size(); ++h) {
+    const document::Motion& motion = layer.handles[h].motion;
+    HandleView view;
+    view.points = layer_points().handles[h].size();
+    if (const std::vector<Vec3>& to = motion.to.get(); !to.empty())
+      view.target = mean_of(to) - input_->origin;
+    else
+      view.target = document::targets_of(motion, std::span(&centres[h], 1), input_->origin).front();
+    if (motion.rotate)
+      view.axes =
+          Eigen::AngleAxisd(motion.rotate->degrees * (std::numbers::pi / 180), motion.rotate->axis.stableNormalized());
+    out.push_back(view);
+  }
+  return out;
+}
+
+bool Session::begin_drag(std::size_t handle) {
+  end_drag();
+  if (layer() == nullptr || handle >= layer()->handles.size() || !layer()->on) return false;
+  handle_ = handle;
+  Drag drag;
+  drag.handle = handle;
+  drag.now = project();
+  drag.centre = handle_rest_centres()[handle];
+  drag.first_ticket = ticket_ + 1;
+  drag.shown = shown_;
+  drag_ = std::move(drag);
+  return true;
+}
+
+void Session::drag_to(const RigidMotion& motion) {
+  if (!drag_) return;
+  const document::Motion& before = layer()->handles[drag_->handle].motion;
+  document::Motion& now = drag_->now.layers[layer_].handles[drag_->handle].motion;
+  const document::Motion wanted = moved(before, motion, drag_->centre, input_->origin);
+  if (wanted == now) return;
+  now = wanted;
+  drag_->moved = true;
+  settling_.reset();
+  ask(SolveOptions::Quality::Interactive, drag_->now);
+}
+
+void Session::end_drag() {
+  if (!drag_) return;
+  Drag drag = std::move(*std::exchange(drag_, std::nullopt));
+  if (drag.now == project()) {
+    if (drag.moved) ask(SolveOptions::Quality::Final, project());
+    return;
+  }
+  // First as if there had been no drag: usually that ends in the same place, and the file stays small.
+  for (std::size_t i = layer_; i < drag.now.layers.size(); ++i) drag.now.layers[i].start = {};
+  history_.commit(std::move(drag.now), "Drag handle");
+  project_changed();
+  settling_ = Settling{Settling::Step::FromRest, layer_, shown_, {}, {}};
+  ask(SolveOptions::Quality::Final, project());
+}
+
+void Session::cancel_drag() {
+  if (!drag_) return;
+  const Drag drag = std::move(*std::exchange(drag_, std::nullopt));
+  if (!drag.moved) return;
+  show_answer(drag.shown);
+  ask(SolveOptions::Quality::Final, project());
+}
+
+/// A final answer: shown, or, on the way from a drag to its canonical answer, compared.
+void Session::settle(std::vector<LayerResult> layers) {
+  if (!settling_) {
+    show_answer(std::move(layers));
+    return;
+  }
+  const double diagonal = std::max(bounds_.diagonal(), 1e-300);
+  const std::size_t end = settling_->layer + 1;
+  if (settling_->step == Settling::Step::FromRest) {
+    const LayerResult* dragged = result_of(settling_->dragged, settling_->layer);
+    const LayerResult* rested = result_of(layers, settling_->layer);
+    const bool comparable = dragged != nullptr && rested != nullptr && dragged->pose != nullptr &&
+                            dragged->pose->size() == rested->pose->size();
+    if (!comparable || distance_between(*input_, settling_->dragged, layers, end) <= seen * diagonal) {
+      settling_.reset();
+      show_answer(std::move(layers));
+      return;
+    }
+    settling_->step = Settling::Step::FromDrag;
+    settling_->from_rest = std::move(layers);
+    settling_->project = project();
+    settling_->project.layers[settling_->layer].start = document::Shared<Affine>(*dragged->pose);
+    ask(SolveOptions::Quality::Final, settling_->project);
+    return;
+  }
+  const Settling settling = std::move(*std::exchange(settling_, std::nullopt));
+  if (distance_between(*input_, settling.from_rest, layers, end) <= same_minimum * diagonal) {
+    show_answer(settling.from_rest);
+    return;
+  }
+  // The drag's own minimum: its state of history becomes the one that says so.
+  const std::string label = history_.label(history_.position());
+  history_.undo();
+  history_.commit(settling.project, label);
+  project_changed();
+  show_answer(std::move(layers));
+}
+
+}  // namespace sinew::editor

@@ -1,0 +1,252 @@
+#include <filesystem>
+
+#include "apps/editor/session.h"
+#include "engine/document/edit.h"
+#include "engine/document/settings.h"
+#include "engine/geometry/skin.h"
+#include "engine/io/io.h"
+
+namespace sinew::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string absolute(const std::string& path) {
+  return path.empty() ? path : fs::absolute(path).lexically_normal().string();
+}
+
+std::string name_of(const std::string& path) {
+  return fs::path(path).filename().string();
+}
+
+bool is_edit(const std::string& path) {
+  return fs::path(path).extension() == ".json";
+}
+
+}  // namespace
+
+/// What a file gave, on its way from the reader's thread.
+struct Session::Opened {
+  std::shared_ptr<const Shape> shape;
+  std::string input_path, edit_path;
+  document::Project project;
+  std::shared_ptr<document::Selector> selector;
+  Bounds bounds;
+  PointSet finite;
+  bool on_disk = true;  ///< the project is what the edit's file says
+};
+
+void Session::open(const std::string& path) {
+  next_open_ = absolute(path);
+  if (background_->busy() && background_->can_cancel()) background_->cancel();
+  start_waiting();
+}
+
+/// All that takes long for a big shape: bounds, which points are finite, what the selections of the layers are.
+static void prepare(auto& opened) {
+  opened.bounds = bounds_of(opened.shape->positions);
+  opened.finite = finite_points(opened.shape->positions);
+  opened.selector = std::make_shared<document::Selector>(opened.shape);
+  for (const document::Layer& layer : opened.project.layers) points_of(layer, *opened.selector);
+}
+
+void Session::open_now(const std::string& path) {
+  const auto work = [this, path, present = input_, present_path = input_path_](const Tell& tell) -> Background::Finish {
+    auto opened = std::make_shared<Opened>();
+    opened->input_path = path;
+    if (is_edit(path)) {
+      opened->edit_path = path;
+      opened->project = document::read_edit(path);
+      document::check_layers(opened->project.layers, methods_);
+      opened->input_path = opened->project.inputs.empty() ? "" : absolute(opened->project.inputs.front());
+    }
+    if (!opened->input_path.empty()) {
+      io::ReadOptions options;
+      options.progress = tell;
+      opened->shape = io::read(opened->input_path, options);
+    } else if (present != nullptr) {
+      opened->shape = present;
+      opened->input_path = present_path;
+      opened->on_disk = false;  // the file lacks the input's name
+    } else {
+      throw file_error(path, "an edit with \"inputs\", or its shape opened before", "an edit alone");
+    }
+    opened->project.inputs = {opened->input_path};
+    prepare(*opened);
+    if (!tell(1)) throw io::Cancelled{};
+    return [this, opened] { show(std::move(*opened)); };
+  };
+  background_->start("Reading " + name_of(path), true, work);
+}
+
+void Session::adopt(std::shared_ptr<const Shape> shape, const std::string& path, document::Project project) {
+  Opened opened;
+  opened.shape = std::move(shape);
+  opened.input_path = absolute(path);
+  opened.project = std::move(project);
+  opened.project.inputs = {opened.input_path};
+  prepare(opened);
+  show(std::move(opened));
+}
+
+void Session::show(Opened opened) {
+  finish_waiting();
+  close();
+  input_ = std::move(opened.shape);
+  input_path_ = std::move(opened.input_path);
+  edit_path_ = std::move(opened.edit_path);
+  bounds_ = opened.bounds;
+  finite_ = std::move(opened.finite);
+  selection_ = PointSet(input_->size());
+  selector_ = std::move(opened.selector);
+  history_ = document::History(opened.project);
+  saved_ = opened.on_disk ? opened.project : document::Project{};
+  layer_ = opened.project.layers.empty() ? 0 : opened.project.layers.size() - 1;
+  changed_.input = true;
+  for (const std::string& note : input_->notes) notify(Severity::Info, name_of(input_path_) + ": " + note);
+  project_changed();
+  ask(SolveOptions::Quality::Final, project());
+}
+
+void Session::close() {
+  solver_->cancel();
+  drag_.reset();
+  settling_.reset();
+  input_.reset();
+  selector_.reset();
+  neighbourhood_.reset();
+  after_neighbourhood_.clear();
+  waiting_.clear();
+  shown_.clear();
+  bent_.clear();
+  bent_ready_ = false;
+  ++bent_version_;
+  input_path_.clear();
+  edit_path_.clear();
+  lost_.clear();
+  bounds_ = {};
+  finite_ = {};
+  selection_ = {};
+  history_ = document::History(document::Project{});
+  saved_ = {};
+  layer_ = 0;
+  handle_.reset();
+  figures_ = {};
+  answered_ = true;
+  changed_ = {true, true, true, true, true};
+  project_changed();
+}
+
+void Session::save_edit(const std::string& path) {
+  if (!has_input()) return;
+  const std::string target = path.empty() ? edit_path_ : absolute(path);
+  if (target.empty()) {
+    notify(Severity::Warning, "This edit has no file yet: choose a name for it.");
+    return;
+  }
+  waiting_.push_back({Waiting::What::Save, target, true});
+  start_waiting();
+}
+
+void Session::export_shape(const std::string& path, bool force) {
+  if (!has_input()) return;
+  waiting_.push_back({Waiting::What::Export, absolute(path), force});
+  start_waiting();
+}
+
+/// Before another shape takes the place of this one: what was to be saved is saved as it stands.
+void Session::finish_waiting() {
+  for (const Waiting& waiting : std::exchange(waiting_, {})) {
+    if (waiting.what == Waiting::What::Export) {
+      notify(Severity::Warning,
+             name_of(waiting.path) + " was not written: another file was opened before it could be.");
+      continue;
+    }
+    refuse([&] {
+      const std::string text = document::edit_text(waiting.path, project());
+      io::save_bytes(waiting.path, std::as_bytes(std::span(text)), true);
+    });
+  }
+}
+
+/// Begins the next work that waits for its turn on the background thread.
+void Session::start_waiting() {
+  if (background_->busy()) return;
+  if (next_open_) {
+    open_now(*std::exchange(next_open_, std::nullopt));
+  } else if (!waiting_.empty() && settled()) {
+    const Waiting waiting = waiting_.front();
+    waiting_.erase(waiting_.begin());
+    if (waiting.what == Waiting::What::Save)
+      save_now(waiting);
+    else
+      export_now(waiting);
+  } else if (!after_neighbourhood_.empty() && neighbourhood_ == nullptr) {
+    background_->start("Finding neighbours", true, [this, shape = input_](const Tell& tell) -> Background::Finish {
+      const auto found = std::make_shared<const Neighbourhood>(neighbourhood_of(*shape));
+      if (!tell(1)) throw io::Cancelled{};
+      return [this, shape, found] {
+        if (shape != input_) return;
+        neighbourhood_ = found;
+        for (const std::function<void()>& then : std::exchange(after_neighbourhood_, {})) then();
+      };
+    });
+  }
+}
+
+void Session::save_now(const Waiting& waiting) {
+  const auto work = [this, path = waiting.path, project = project(),
+                     input = input_](const Tell&) -> Background::Finish {
+    const std::string text = document::edit_text(path, project);
+    io::save_bytes(path, std::as_bytes(std::span(text)), true);
+    return [this, path, project, input] {
+      if (input != input_) return;
+      saved_ = project;
+      edit_path_ = path;
+      project_changed();
+      notify(Severity::Info, "Saved " + name_of(path) + ".");
+    };
+  };
+  background_->start("Saving " + name_of(waiting.path), false, work);
+}
+
+void Session::export_now(const Waiting& waiting) {
+  const auto work = [this, waiting, input = input_, layers = shown_](const Tell& tell) -> Background::Finish {
+    std::shared_ptr<const Shape> shape = input;
+    for (const document::LayerResult& layer : layers) {
+      shape = std::make_shared<const Shape>(skin(*shape, *layer.weights, *layer.pose));
+      if (!tell(-1)) throw io::Cancelled{};
+    }
+    const auto report = std::make_shared<io::WriteReport>(io::write(waiting.path, *shape, waiting.force));
+    return [this, path = waiting.path, report] {
+      lost_ = report->lost;
+      for (const std::string& lost : report->lost) notify(Severity::Warning, name_of(path) + ": " + lost);
+      notify(Severity::Info, "Exported " + name_of(path) + ".");
+    };
+  };
+  background_->start("Exporting " + name_of(waiting.path), true, work);
+}
+
+std::optional<Job> Session::job() const {
+  if (background_->busy())
+    return Job{background_->what(), background_->fraction(), background_->seconds(), background_->can_cancel()};
+  if (solver_->busy() && solver_->building() < 1) return Job{"Preparing the layer", solver_->building(), 0, false};
+  return std::nullopt;
+}
+
+void Session::cancel_job() {
+  if (background_->busy() && background_->can_cancel()) background_->cancel();
+  after_neighbourhood_.clear();
+  next_open_.reset();
+}
+
+void Session::take_background() {
+  std::optional<Background::Outcome> outcome = background_->take();
+  if (!outcome) return;
+  if (!outcome->error.empty()) notify(Severity::Error, outcome->error);
+  if (outcome->finish) outcome->finish();
+  if (neighbourhood_ == nullptr && (outcome->cancelled || !outcome->error.empty())) after_neighbourhood_.clear();
+}
+
+}  // namespace sinew::editor
