@@ -44,12 +44,13 @@ const Format& format_of(const std::string& path);
 std::shared_ptr<const Shape> read(const std::string& path, const ReadOptions& options = {}, const std::string& as = "");
 
 /// Writes whole or not at all: a temporary file beside `path`, fsync, rename. An existing file is refused unless
-/// `force`.
-/// "-" with `as` an extension: standard output.
+/// `force`; devices and pipes are written as they are.
+/// "-" with `as` an extension: standard output. A .conf is written with its scans beside it, as by write_parts.
 WriteReport write(const std::string& path, const Shape& shape, bool force = false, const std::string& as = "");
 
 /// A scan set back to one file a scan, each in its own frame and under its own name, in `folder` (made if missing),
-/// with the set's .conf. Throws InputError where the shape has no parts.
+/// with the set's .conf. All files are made before the first is written; each is written whole or not at all. Throws
+/// InputError where the shape has no parts.
 WriteReport write_parts(const std::string& folder, const Shape& shape, bool force = false);
 
 /// The whole of a file. Throws InputError (missing, folder, unreadable).

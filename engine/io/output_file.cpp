@@ -27,12 +27,18 @@ bool is_special(const std::string& path) {
   return path == "-" || (stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode));
 }
 
-/// Unlike any other of this process or of one that runs now.
-std::string temporary_name(const std::filesystem::path& target) {
+/// Makes a new file beside `target` and opens it; -1 and an empty name where that fails.
+int open_temporary(const std::filesystem::path& target, std::string& name) {
   static std::atomic<unsigned> counter{0};
-  const std::string name =
-      "." + target.filename().string() + "." + std::to_string(getpid()) + "-" + std::to_string(counter++) + ".part";
-  return (target.parent_path() / name).string();
+  for (int tries = 0; tries < 100; ++tries) {
+    const std::string last = ".sinew-" + std::to_string(getpid()) + "-" + std::to_string(counter++) + ".part";
+    name = (target.parent_path() / last).string();
+    const int file = open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file >= 0) return file;
+    if (errno != EEXIST) break;
+  }
+  name.clear();
+  return -1;
 }
 
 }  // namespace
@@ -57,12 +63,8 @@ OutputFile::OutputFile(const std::string& path, bool force) : path_(path), targe
   if (std::filesystem::is_symlink(path, none)) target_ = std::filesystem::weakly_canonical(path, none).string();
   struct stat status;
   const bool exists = stat(target_.c_str(), &status) == 0;
-  temporary_ = temporary_name(target_);
-  file_ = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file_ < 0) {
-    temporary_.clear();
-    fail("a folder that can be written");
-  }
+  file_ = open_temporary(target_, temporary_);
+  if (file_ < 0) fail("a folder that can be written");
   if (exists && fchmod(file_, status.st_mode & 07777) != 0) fail("to keep the mode of the file");
 }
 

@@ -6,6 +6,7 @@
 
 #include "engine/geometry/error.h"
 #include "engine/io/ply_vertices.h"
+#include "engine/io/text.h"
 #include "engine/io/values.h"
 
 namespace sinew::io {
@@ -31,7 +32,7 @@ std::vector<std::string> standard_fields(const Attribute& attribute) {
 /// A word that no other property of the points has.
 std::string free_word(std::string name, std::unordered_set<std::string>& taken) {
   for (char& c : name)
-    if (static_cast<unsigned char>(c) <= ' ') c = '_';
+    if (TextCursor::is_blank(c) || TextCursor::is_end(c)) c = '_';
   if (name.empty()) name = "value";
   while (!taken.insert(name).second) name += '_';
   return name;

@@ -162,7 +162,9 @@ const Format& format_for(const std::string& path, const std::string& as) {
 
 WriteReport bend_whole(const std::string& in, std::vector<std::byte> bytes, const std::string& out,
                        const StreamOptions& options, const std::function<void(Shape&)>& bend) {
-  Shape shape = format_for(in, options.as).read(in, std::move(bytes), {});
+  ReadOptions reading;
+  if (options.progress) reading.progress = [&options](double x) { return options.progress(x / 2); };
+  Shape shape = format_for(in, options.as).read(in, std::move(bytes), reading);
   shape.origin = options.origin;
   for (Vec3& p : shape.positions) p -= options.origin;
   const std::size_t count = shape.size();

@@ -1,0 +1,50 @@
+#include <filesystem>
+#include <iostream>
+
+#include "engine/io/obj.h"
+#include "engine/io/off.h"
+#include "engine/io/pcd.h"
+#include "engine/io/xyz.h"
+#include "tests/fuzz/targets.h"
+#include "tests/io/file_checks.h"
+
+namespace sinew::io {
+
+namespace {
+
+/// A folder of tests/fuzz/seeds and what its fuzz target does.
+struct Target {
+  const char* name;
+  void (*fuzz)(std::span<const std::uint8_t> data);
+};
+
+template <ReadFunction read, WriteFunction write>
+void fuzz(std::span<const std::uint8_t> data) {
+  fuzz_format(read, write, data);
+}
+
+class Seeds : public testing::TestWithParam<Target> {};
+
+}  // namespace
+
+/// A CHECK of the target ends the program: the last name that was printed is that of the seed.
+TEST_P(Seeds, EndInAShapeOrASentence) {
+  std::size_t count = 0;
+  const auto folder = std::filesystem::path(SINEW_SOURCE_DIR) / "tests/fuzz/seeds" / GetParam().name;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::cout << entry.path().string() << std::endl;
+    const std::string text = text_of_file(entry.path().string());
+    GetParam().fuzz({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    ++count;
+  }
+  EXPECT_GT(count, 4u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, Seeds,
+                         testing::Values(Target{"ply", fuzz_ply}, Target{"stl", fuzz_stl},
+                                         Target{"conf", fuzz_scan_set}, Target{"obj", fuzz<read_obj, write_obj>},
+                                         Target{"off", fuzz<read_off, write_off>},
+                                         Target{"xyz", fuzz<read_xyz, write_xyz>},
+                                         Target{"pcd", fuzz<read_pcd, write_pcd>}));
+
+}  // namespace sinew::io
