@@ -18,7 +18,7 @@ float lines(vec2 cells, vec2 pixel) {
 void main() {
   if (texelFetch(depths, ivec2(gl_FragCoord.xy), 0).r > gl_FragCoord.z) discard;
   const vec2 cells = at + c.origin, pixel = fwidth(at);
-  const float fade = clamp(1.0 - length(at) / c.radius, 0.0, 1.0);
+  const float fade = clamp(1.0 - dot(at, at) / (c.radius * c.radius), 0.0, 1.0);
   const float strength = max(0.65 * lines(cells, pixel), lines(0.1 * cells, 0.1 * pixel));
   const vec4 color = unpackUnorm4x8(c.color);
   out_color = vec4(color.rgb, color.a * fade * fade * strength);

@@ -58,6 +58,7 @@ SHARED_CONST uint draw_flat = 1u;     // faces shaded flat
 SHARED_CONST uint draw_normals = 2u;  // points have normals
 SHARED_CONST uint draw_ghost = 4u;    // see-through, brighter towards its outline
 SHARED_CONST uint draw_z_up = 8u;     // the sky is where z grows; otherwise y
+SHARED_CONST uint draw_smooth = 16u;  // four samples a pixel
 struct DrawConstants {
   mat4 clip;         // from the points' own coordinates
   vec4 eye;          // w 1: the eye in those coordinates; w 0: the direction towards it (orthographic)

@@ -50,6 +50,18 @@ shared::OverlayConstants overlay_constants(const Scene& scene, VkExtent2D extent
   return constants;
 }
 
+void draw_instances(VkCommandBuffer commands, const Pipeline& pipeline, const Buffer& instances, std::uint32_t count,
+                    const shared::OverlayConstants& constants) {
+  if (count == 0) return;
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
+  push_constants(commands, pipeline, constants);
+  const VkDeviceSize offset = 0;
+  vkCmdBindVertexBuffers(commands, 0, 1, instances.handle.address(), &offset);
+  vkCmdDraw(commands, 4, count, 0, 0);
+}
+
+}  // namespace
+
 shared::GroundConstants ground_constants(const Scene& scene, VkExtent2D extent) {
   const Ground& ground = scene.ground;
   const Eigen::Vector3d u = Eigen::Vector3d::UnitX();
@@ -68,18 +80,6 @@ shared::GroundConstants ground_constants(const Scene& scene, VkExtent2D extent) 
   constants.radius = static_cast<float>(ground.cells);
   return constants;
 }
-
-void draw_instances(VkCommandBuffer commands, const Pipeline& pipeline, const Buffer& instances, std::uint32_t count,
-                    const shared::OverlayConstants& constants) {
-  if (count == 0) return;
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
-  push_constants(commands, pipeline, constants);
-  const VkDeviceSize offset = 0;
-  vkCmdBindVertexBuffers(commands, 0, 1, instances.handle.address(), &offset);
-  vkCmdDraw(commands, 4, count, 0, 0);
-}
-
-}  // namespace
 
 OverlayPipelines create_overlay_pipelines(const Device& device, VkRenderPass pass, VkDescriptorSetLayout descriptors) {
   OverlayPipelines pipelines;
@@ -122,11 +122,11 @@ void write_overlay(const Device& device, OverlayData& data, const Scene& scene) 
 }
 
 void draw_overlay(VkCommandBuffer commands, const OverlayPipelines& pipelines, const OverlayData& data,
-                  VkDescriptorSet depths, const Scene& scene, VkExtent2D extent) {
+                  VkDescriptorSet depths, const Scene& scene, VkExtent2D extent, bool with_ground) {
   // The layouts of all three agree in their descriptor set.
   vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.ground.layout, 0, 1, &depths, 0,
                           nullptr);
-  if (scene.ground.show) {
+  if (with_ground && scene.ground.show) {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.ground.handle);
     push_constants(commands, pipelines.ground, ground_constants(scene, extent));
     vkCmdDraw(commands, 4, 1, 0, 0);

@@ -4,6 +4,7 @@
 
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/scene.h"
+#include "shaders/shared.h"
 
 namespace sinew::gpu {
 
@@ -19,8 +20,10 @@ struct OverlayData {
 };
 void write_overlay(const Device& device, OverlayData& data, const Scene& scene);
 
+shared::GroundConstants ground_constants(const Scene& scene, VkExtent2D extent);
+
 /// `depths` is the descriptor set of the shapes' images.
 void draw_overlay(VkCommandBuffer commands, const OverlayPipelines& pipelines, const OverlayData& data,
-                  VkDescriptorSet depths, const Scene& scene, VkExtent2D extent);
+                  VkDescriptorSet depths, const Scene& scene, VkExtent2D extent, bool with_ground);
 
 }  // namespace sinew::gpu

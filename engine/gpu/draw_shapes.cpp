@@ -41,9 +41,11 @@ std::uint32_t ghost_color(const Look& look, double opacity) {
 }
 
 void draw_cloud(VkCommandBuffer commands, const Pipeline& pipeline, const Scene& scene, const CloudItem& item,
-                VkExtent2D extent) {
+                VkExtent2D extent, VkSampleCountFlagBits samples) {
+  shared::DrawConstants constants = cloud_constants(scene, item, extent);
+  if (samples != VK_SAMPLE_COUNT_1_BIT) constants.flags |= shared::draw_smooth;
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
-  push_constants(commands, pipeline, cloud_constants(scene, item, extent));
+  push_constants(commands, pipeline, constants);
   draw_vertices(commands, item);
 }
 
@@ -69,6 +71,7 @@ std::vector<VkVertexInputAttributeDescription> point_attributes() {
 
 ShapePipelines create_shape_pipelines(const Device& device, VkRenderPass pass, VkSampleCountFlagBits samples) {
   ShapePipelines pipelines;
+  pipelines.samples = samples;
   DrawState backdrop;
   backdrop.vertex = "screen.vert";
   backdrop.fragment = "backdrop.frag";
@@ -153,9 +156,9 @@ void draw_backdrop(VkCommandBuffer commands, const ShapePipelines& pipelines, co
 
 void draw_clouds(VkCommandBuffer commands, const ShapePipelines& pipelines, const Scene& scene, VkExtent2D extent) {
   for (const CloudItem& item : scene.clouds)
-    if (item.ghost <= 0) draw_cloud(commands, pipelines.points, scene, item, extent);
+    if (item.ghost <= 0) draw_cloud(commands, pipelines.points, scene, item, extent, pipelines.samples);
   for (const CloudItem& item : scene.clouds)
-    if (item.ghost > 0) draw_cloud(commands, pipelines.ghost_points, scene, item, extent);
+    if (item.ghost > 0) draw_cloud(commands, pipelines.ghost_points, scene, item, extent, pipelines.samples);
 }
 
 void draw_meshes(VkCommandBuffer commands, const ShapePipelines& pipelines, const Scene& scene, VkExtent2D extent) {

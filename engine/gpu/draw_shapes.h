@@ -8,6 +8,7 @@
 namespace sinew::gpu {
 
 struct ShapePipelines {
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   Pipeline backdrop, points, mesh, ghost_points, ghost_mesh;
 };
 ShapePipelines create_shape_pipelines(const Device& device, VkRenderPass pass, VkSampleCountFlagBits samples);

@@ -53,11 +53,17 @@ struct RasterOutput {
   bool blue_first = false;          ///< B8G8R8A8; otherwise R8G8B8A8
 };
 
+/// Columns [begin, end) of a row.
+struct RasterSpan {
+  int begin = 0, end = 0;
+};
+
 /// Memory that shading needs and that is worth keeping from picture to picture.
 struct RasterScratch {
   RasterImage solid, ghost;
   std::vector<float> depths;          ///< padded
   std::vector<std::uint32_t> colors;  ///< of the raster, where it is finer than the picture
+  std::vector<RasterSpan> covered;    ///< of each row
   std::vector<std::uint8_t> outlined;
 };
 

@@ -6,6 +6,7 @@
 #include "engine/geometry/parallel.h"
 #include "engine/gpu/draw_shapes.h"
 #include "engine/gpu/raster.h"
+#include "engine/gpu/raster_ground.h"
 
 namespace sinew::gpu {
 namespace {
@@ -126,8 +127,9 @@ struct Raster {
   std::span<const RasterItem> ghost_items;
   shared::ComposeConstants constants;
   int scale;
-  std::vector<float>& depths;  ///< padded
-  std::uint32_t* colors;       ///< of the raster's size
+  std::vector<float>& depths;        ///< padded
+  std::vector<RasterSpan>& covered;  ///< of each row: where something solid may be
+  std::uint32_t* colors;             ///< of the raster's size
 
   std::size_t stride() const { return static_cast<std::size_t>(solid.width + 2 * pad); }
   float* depth_row(int y) const { return depths.data() + static_cast<std::size_t>(y + pad) * stride() + pad; }
@@ -136,30 +138,40 @@ struct Raster {
   }
 };
 
-/// Depths of the raster with zeros around.
+/// Depths of the raster with zeros around, and where in each row there are any.
 void pad_depths(const Raster& raster) {
-  raster.depths.assign(raster.stride() * static_cast<std::size_t>(raster.solid.height + 2 * pad), 0);
+  const std::size_t stride = raster.stride(), above = pad * stride;
+  raster.depths.resize(stride * static_cast<std::size_t>(raster.solid.height + 2 * pad));
+  raster.covered.resize(static_cast<std::size_t>(raster.solid.height));
+  std::fill_n(raster.depths.begin(), above, 0.0f);
+  std::fill_n(raster.depths.rbegin(), above, 0.0f);
   parallel_for(static_cast<std::size_t>(raster.solid.height), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t y = begin; y < end; ++y) {
       float* row = raster.depth_row(static_cast<int>(y));
+      std::fill_n(row - pad, pad, 0.0f);
+      std::fill_n(row + raster.solid.width, pad, 0.0f);
       const std::uint64_t* keys = raster.solid.keys.data() + y * static_cast<std::size_t>(raster.solid.width);
-      for (int x = 0; x < raster.solid.width; ++x)
+      RasterSpan span{raster.solid.width, 0};
+      for (int x = 0; x < raster.solid.width; ++x) {
         row[x] = std::bit_cast<float>(static_cast<std::uint32_t>(keys[x] >> 32));
+        span.begin = keys[x] != 0 ? std::min(span.begin, x) : span.begin;
+        span.end = keys[x] != 0 ? x + 1 : span.end;
+      }
+      raster.covered[y] = raster.ghost != nullptr ? RasterSpan{0, raster.solid.width} : span;
     }
   });
 }
 
-/// shades[x]: how much eye-dome lighting leaves of each pixel of a row (compose.frag).
-void edl_row(const Raster& raster, int y, std::span<float> shades) {
+/// shades[x]: how much eye-dome lighting leaves of pixel x of a row, for the x of `span` (compose.frag).
+void edl_row(const Raster& raster, int y, RasterSpan span, std::vector<float>& shades) {
   const shared::ComposeConstants& c = raster.constants;
   const int r = std::clamp(static_cast<int>(c.edl_radius), 1, most_edl_radius);
   const int d = std::clamp(static_cast<int>(0.7f * c.edl_radius + 0.5f), 1, most_edl_radius);
   const float *here = raster.depth_row(y), *up = raster.depth_row(y - r), *down = raster.depth_row(y + r);
   const float *high = raster.depth_row(y - d), *low = raster.depth_row(y + d);
-  const auto width = static_cast<int>(shades.size());
   const float linear = c.linear_depth, strength = c.edl_strength;
   float* out = shades.data();
-  for (int x = 0; x < width; ++x) {
+  for (int x = span.begin; x < span.end; ++x) {
     const float z = here[x];
     const float scale = linear > 0 ? linear : shared::inverse_ln2 / std::max(z, 1e-30f);
     const auto tap = [&](float there) { return std::clamp((there - z) * scale, 0.0f, shared::edl_limit); };
@@ -169,36 +181,57 @@ void edl_row(const Raster& raster, int y, std::span<float> shades) {
   }
 }
 
-/// The gradient with its dither (backdrop.frag).
-Vector3f backdrop(const shared::ComposeConstants& c, int x, int y) {
-  const float t = (static_cast<float>(y) + 0.5f) / c.size.y();
-  const float inner = (static_cast<float>(x) + 0.5f) * 0.06711056f + (static_cast<float>(y) + 0.5f) * 0.00583715f;
-  const float outer = 52.9829189f * (inner - std::floor(inner));
-  const float dither = outer - std::floor(outer) - 0.5f;
-  return (color_of(c.top) * (1 - t) + color_of(c.bottom) * t).array() + dither / 255.0f;
+/// A row of the gradient with its dither (backdrop.frag), `out` in raster pixels.
+void backdrop_row(const Raster& raster, int y, std::uint32_t* out) {
+  const shared::ComposeConstants& c = raster.constants;
+  const float t = (static_cast<float>(y) + 0.5f) / (c.size.y() * static_cast<float>(raster.scale));
+  const Vector3f color =
+      (255.0f * (color_of(c.top) * (1 - t) + color_of(c.bottom) * t)).cwiseMax(0.5f).cwiseMin(254.5f);
+  const float red = color.x(), green = color.y(), blue = color.z();
+  const float down = (static_cast<float>(y) + 0.5f) * 0.00583715f;
+  const int width = raster.solid.width;
+  for (int x = 0; x < width; ++x) {
+    const float inner = (static_cast<float>(x) + 0.5f) * 0.06711056f + down;
+    const float outer = 52.9829189f * (inner - std::floor(inner));
+    const float dither = outer - std::floor(outer);  // with the half that rounds
+    out[x] = static_cast<std::uint32_t>(static_cast<std::int32_t>(red + dither) |
+                                        static_cast<std::int32_t>(green + dither) << 8 |
+                                        static_cast<std::int32_t>(blue + dither) << 16);
+  }
+}
+
+/// The grid over what lies below it (ground.frag).
+void blend_ground(const Raster& raster, int y, const GroundRow& ground, const Vector3f& color) {
+  std::uint32_t* out = raster.color_row(y);
+  const float* depths = raster.depth_row(y);
+  for (int x = 0; x < raster.solid.width; ++x) {
+    const auto i = static_cast<std::size_t>(x);
+    if (ground.opacity[i] <= 0 || depths[x] > ground.depth[i]) continue;
+    const Vector3f below = color_of(out[x]);
+    out[x] = packed_color(below + ground.opacity[i] * (color - below)) | (out[x] & selected_bit);
+  }
 }
 
 void shade_row(const Raster& raster, int y, std::vector<float>& shades) {
   const RasterImage& solid = raster.solid;
-  shades.resize(static_cast<std::size_t>(solid.width));
-  if (raster.constants.edl_strength > 0)
-    edl_row(raster, y, shades);
-  else
-    std::fill(shades.begin(), shades.end(), 1.0f);
+  const RasterSpan span = raster.covered[static_cast<std::size_t>(y)];
+  shades.assign(static_cast<std::size_t>(solid.width), 1.0f);
+  if (raster.constants.edl_strength > 0) edl_row(raster, y, span, shades);
   std::uint32_t* out = raster.color_row(y);
+  backdrop_row(raster, y, out);
   const std::size_t first = static_cast<std::size_t>(y) * static_cast<std::size_t>(solid.width);
-  for (int x = 0; x < solid.width; ++x) {
+  for (int x = span.begin; x < span.end; ++x) {
     const std::size_t pixel = first + static_cast<std::size_t>(x);
-    Shaded shaded;
-    if (solid.empty(pixel)) {
-      shaded.color = backdrop(raster.constants, x / raster.scale, y / raster.scale);
-    } else {
+    const bool ghost = raster.ghost != nullptr && raster.ghost->keys[pixel] >> 32 > solid.keys[pixel] >> 32;
+    if (solid.empty(pixel) && !ghost) continue;
+    Shaded shaded{color_of(out[x])};
+    if (!solid.empty(pixel)) {
       shaded = shade(raster.items, solid, pixel);
       shaded.color *= shades[static_cast<std::size_t>(x)];
     }
-    if (raster.ghost != nullptr && raster.ghost->keys[pixel] >> 32 > solid.keys[pixel] >> 32) {
-      const Shaded ghost = shade(raster.ghost_items, *raster.ghost, pixel);
-      shaded.color += ghost.alpha * (ghost.color - shaded.color);
+    if (ghost) {
+      const Shaded over = shade(raster.ghost_items, *raster.ghost, pixel);
+      shaded.color += over.alpha * (over.color - shaded.color);
     }
     out[x] = packed_color(shaded.color) | (shaded.selected ? selected_bit : 0);
   }
@@ -280,6 +313,7 @@ void raster_scene(RasterScratch& scratch, const Scene& scene, VkExtent2D extent,
                compose_constants(scene, extent),
                scale,
                scratch.depths,
+               scratch.covered,
                out.colors};
   state.constants.edl_radius *= static_cast<float>(scale);
   if (scale > 1) {
@@ -287,9 +321,17 @@ void raster_scene(RasterScratch& scratch, const Scene& scene, VkExtent2D extent,
     state.colors = scratch.colors.data();
   }
   pad_depths(state);
+  const RasterGround ground(scene, extent, scale);
+  const Vector3f grid = color_of(packed(scene.look.grid));
   parallel_for(static_cast<std::size_t>(height), 8, [&](std::size_t begin, std::size_t end) {
     std::vector<float> shades;
-    for (std::size_t y = begin; y < end; ++y) shade_row(state, static_cast<int>(y), shades);
+    GroundRow ground_row;
+    for (std::size_t y = begin; y < end; ++y) {
+      shade_row(state, static_cast<int>(y), shades);
+      if (!scene.ground.show) continue;
+      ground.row(static_cast<int>(y), ground_row);
+      blend_ground(state, static_cast<int>(y), ground_row, grid);
+    }
   });
   if (state.constants.outline != 0) draw_outline(state, scratch.outlined);
   write_output(state, extent, out);

@@ -228,7 +228,7 @@ VkCommandBuffer begin_picture(const Device& device, Renderer& renderer, Frame& f
   vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
   set_viewport(commands, target.extent);
   if (on_device) compose(renderer, commands, scene, target.extent);
-  draw_overlay(commands, renderer.overlay, renderer.overlay_data, renderer.images, scene, target.extent);
+  draw_overlay(commands, renderer.overlay, renderer.overlay_data, renderer.images, scene, target.extent, on_device);
   return commands;
 }
 

@@ -102,6 +102,34 @@ TEST_F(RendererTest, ShadersAndProcessorDrawTheSameMesh) {
   EXPECT_LT(difference(shaders(scene), raster(scene), 6), 0.01);
 }
 
+TEST_F(RendererTest, ShadersAndProcessorDrawTheSameGround) {
+  Scene scene = plain_scene();
+  scene.smooth_edges = false;
+  scene.meshes.push_back({&square_, &faces_});
+  for (const bool orthographic : {false, true})
+    for (const UpAxis up : {UpAxis::Y, UpAxis::Z}) {
+      scene.up = up;
+      scene.camera.orthographic = orthographic;
+      scene.look.grid = Color::hex(0xffffff, 0.8);
+      scene.ground = ground_below(ball_.rest_bounds, up);
+      look_from(scene.camera, "iso", up);
+      fit_depth(scene.camera, ball_.rest_bounds);
+      const Picture a = shaders(scene), b = raster(scene);
+      EXPECT_LT(difference(a, b, 16), 0.02);
+      scene.ground.show = false;
+      EXPECT_GT(difference(a, shaders(scene), 16), 0.05);
+    }
+  // Seen from within its plane there is nothing to draw.
+  scene.ground.middle = scene.camera.eye = Eigen::Vector3d(0, 0, 0);
+  scene.camera.target = {0, 0, -1};
+  scene.camera.up = {0, 1, 0};
+  scene.up = UpAxis::Y;
+  scene.ground.show = true;
+  scene.meshes.clear();
+  raster(scene);
+  shaders(scene);
+}
+
 TEST_F(RendererTest, MarksTintAndSelectionIsOutlined) {
   Scene scene = plain_scene();
   scene.meshes.push_back({&square_, &faces_});
