@@ -18,7 +18,7 @@ Ground ground_below(const Bounds& bounds, UpAxis up) {
   Ground ground;
   const int axis = up == UpAxis::Y ? 1 : 2;
   const double diagonal = bounds.diagonal() > 0 ? bounds.diagonal() : 1;
-  const double wanted = diagonal / 6;
+  const double wanted = diagonal / 3;
   const double decade = std::pow(10, std::floor(std::log10(wanted)));
   ground.cell = decade * (wanted < 2 * decade ? 1 : wanted < 5 * decade ? 2 : 5);
   ground.cells = 5 * diagonal / ground.cell;

@@ -64,7 +64,7 @@ struct Ground {
   double cell = 0.1;                ///< length of a cell; every tenth line is stronger
   double cells = 30;                ///< cells from the middle to where it has faded away
 };
-/// Under `bounds`: cells of a round length (1, 2 or 5 times a power of ten) about a twelfth of the diagonal.
+/// Under `bounds`: cells of a round length (1, 2 or 5 times a power of ten) at most a third of the diagonal.
 Ground ground_below(const Bounds& bounds, UpAxis up);
 
 /// Colours and light; dark_look() is the standard.
