@@ -19,6 +19,9 @@ sinew_tests(test_io tests/io/*.cpp sinew_io)
 sinew_tests(test_document tests/document/*.cpp sinew_document sinew_deformers)
 sinew_tests(test_deformers tests/deformers/*.cpp sinew_deformers sinew_io)
 sinew_tests(test_samples tests/apps/samples_test.cpp sinew_samples sinew_document)
+sinew_tests(test_editor_core tests/apps/editor_core*_test.cpp sinew_editor_core)
+sinew_tests(test_sinew tests/apps/sinew_*test.cpp sinew_document sinew_deformers sinew_gpu)
+add_dependencies(test_sinew sinew)
 sinew_tests(test_house tests/house/*.cpp sinew_common)
 
 # One run of all gpu tests: each start of the program proves anew that the validation layer catches a planted hazard.

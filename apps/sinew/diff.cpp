@@ -88,29 +88,40 @@ std::vector<AttributeDiff> compare_attributes(const Shape& a, const Shape& b) {
   return out;
 }
 
-/// `to` with the positions and attribute values of `from`, where both have them.
-Shape with_values_of(const Shape& from, Shape to) {
-  const Vec3 shift = from.origin - to.origin;
-  for (std::size_t i = 0; i < to.size(); ++i)
-    if (from.positions[i].allFinite()) to.positions[i] = from.positions[i] + shift;
-  for (Attribute& attribute : to.attributes) {
-    const Attribute* other = from.find(attribute.name);
-    if (other != nullptr && other->values.size() == attribute.values.size() && other->type == attribute.type)
-      attribute.values = other->values;
-  }
-  return to;
+/// A number of 1, 2, 3 that is neither x nor y.
+double other_than(double x, double y) {
+  for (const double number : {1.0, 2.0})
+    if (x != number && y != number) return number;
+  return 3;
 }
 
-/// A writer changes nothing but the values that differ from those read. So A's file with B's values is B's file, byte
-/// for byte, exactly where all else is equal; tried both ways, because one of the two may spell numbers differently.
-bool all_else_equal(const std::string& path_a, const Shape& a, const std::string& path_b, const Shape& b) {
-  const io::Format& format = io::format_of(path_a);
+/// `shape` with numbers of our own in place of positions and of attributes that differ in `other`; the same numbers
+/// where the two are swapped.
+Shape neutral(Shape shape, const Shape& other, const std::vector<AttributeDiff>& attributes) {
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    Vec3& p = shape.positions[i];
+    if (!p.allFinite() || !other.positions[i].allFinite()) continue;
+    const Vec3 x = p + shape.origin, y = other.positions[i] + other.origin;
+    for (int c = 0; c < 3; ++c) p[c] = other_than(std::round(x[c]), std::round(y[c])) - shape.origin[c];
+  }
+  for (const AttributeDiff& diff : attributes) {
+    if (diff.what != "values") continue;
+    Attribute& mine = *shape.find(diff.name);
+    const Attribute& theirs = *other.find(diff.name);
+    for (std::size_t i = 0; i < mine.count(); ++i)
+      for (int c = 0; c < mine.components; ++c)
+        mine.set_number(i, c, other_than(std::round(mine.number(i, c)), std::round(theirs.number(i, c))));
+  }
+  return shape;
+}
+
+/// A writer copies its file and replaces only values that differ from those read. So with all values replaced by the
+/// same ones, the two files are the same bytes exactly where everything else is, however each spells its numbers.
+bool all_else_equal(const std::string& path, const Shape& a, const Shape& b,
+                    const std::vector<AttributeDiff>& attributes) {
+  const io::Format& format = io::format_of(path);
   io::WriteReport report;
-  const auto becomes = [&](const std::string& from_path, const Shape& from, const Shape& values,
-                           const std::string& to) {
-    return format.write(from_path, with_values_of(values, from), report) == io::load_bytes(to);
-  };
-  return becomes(path_a, a, b, path_b) || becomes(path_b, b, a, path_a);
+  return format.write(path, neutral(a, b, attributes), report) == format.write(path, neutral(b, a, attributes), report);
 }
 
 struct Diff {
@@ -129,7 +140,7 @@ Diff diff_of(const Options& options) {
   out.distances = distances_of(*a, *b);
   const io::Format& format = io::format_of(options.a);
   if (format.write != nullptr && &format == &io::format_of(options.b) && a->parts.empty() && b->parts.empty())
-    out.rest = all_else_equal(options.a, *a, options.b, *b) ? "equal" : "changed";
+    out.rest = all_else_equal(options.a, *a, *b, out.attributes) ? "equal" : "changed";
   return out;
 }
 

@@ -16,8 +16,8 @@ bool failed = false;
 std::string place;
 
 extern "C" void on_signal(int) {
+  if (held == 0 || noted != 0) _exit(Interrupted);
   noted = 1;
-  if (held == 0) _exit(Interrupted);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #pragma once
 /// Ctrl-C, and what an exception left behind. Ctrl-C ends the program at once (status 130), except while an output is
-/// open: then it is only noted, and the writer finishes or gives up its temporary file.
+/// open: then it is only noted, and the writer finishes or gives up its temporary file. A second one ends it there too.
 
 #include <string>
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "tests/document/bad_edits.h"
+
 namespace sinew::document {
 
 namespace {
@@ -80,14 +82,6 @@ TEST(Edit, AChangedFieldIsNoticed) {
   EXPECT_NE(project, other);
 }
 
-/// In the layer and the handle of the sentences below.
-std::string layer(const std::string& members) {
-  return "{\"sinew\": 1, \"layers\": [{\"method\": \"graph\", " + members + "}]}";
-}
-std::string handle(const std::string& members) {
-  return layer("\"handles\": [" + members + "]");
-}
-
 std::string message_of(const std::string& text) {
   try {
     parse_edit("e.json", text);
@@ -97,83 +91,15 @@ std::string message_of(const std::string& text) {
   return "no error";
 }
 
-/// "expected ..., found ..." of a text in which @ stands before the place that the message must name.
-std::string mistake_of(std::string text) {
-  const std::size_t at = text.find('@');
-  text.erase(at, 1);
-  const std::string before = text.substr(0, at), message = message_of(text);
-  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  const std::string place =
-      "e.json:" + std::to_string(line) + ":" + std::to_string(at - (before.rfind('\n') + 1) + 1) + ": ";
+std::string mistake_of(const std::string& marked) {
+  const MarkedText text(marked);
+  const std::string message = message_of(text.text), place = "e.json:" + text.place + ": ";
   return message.starts_with(place) ? message.substr(place.size()) : message + " instead of " + place;
 }
 
 TEST(Edit, EachMistakeHasItsSentence) {
-  const std::string points = "{\"points\": {\"all\": true}, ";
-  const std::pair<std::string, std::string> cases[] = {
-      {"@", "expected a value, found the end of the text"},
-      {"{@", "expected a text, found the end of the text"},
-      {"{\"sinew\": 1,\n  \"layers\": [@}", "expected a value, found '}'"},
-      {"{\"sinew\": 1 @\"layers\": []}", "expected '}', found a text"},
-      {"{\"sinew\": 0@1}", "expected '}', found a number"},
-      {"{\"sinew\": @nan}", "expected JSON, found invalid literal"},
-      {"{\"sinew\": @1e999, \"layers\": []}", "expected a number that fits a double, found \"1e999\""},
-      {"@[]", "expected an object, found an array of 0"},
-      {"@{}", "expected \"sinew\", \"layers\", found an object without members"},
-      {"{\"sinew\": @2, \"layers\": []}", "expected version 1 of the format, found 2"},
-      {"{\"sinew\": @\"1\", \"layers\": []}", "expected a whole number from -2147483648 to 2147483647, found \"1\""},
-      {"{\"sinew\": 1, \"layers\": @{}}", "expected an array, found an object"},
-      {"{\"sinew\": 1, \"layers\": [], @\"layers\": []}", "expected each name once, found \"layers\" again"},
-      {"{\"sinew\": 1, @\"layer\": []}", "expected one of \"sinew\", \"inputs\", \"layers\", found \"layer\""},
-      {"{\"sinew\": 1, \"layers\": [@{}]}", "expected \"method\", found an object without members"},
-      {"{\"sinew\": 1, \"layers\": [{\"method\": @3}]}", "expected a text, found 3"},
-      {layer("@\"setings\": {}"),
-       "expected one of \"name\", \"off\", \"method\", \"settings\", \"nodes\", \"fixed\", \"handles\", \"rigid\", "
-       "\"stiffness\", \"examples\", \"keys\", \"start\", found \"setings\""},
-      {layer("\"settings\": {\"nodes\": @true}"), "expected a number or a text, found true"},
-      {layer("\"off\": @1"), "expected true or false, found 1"},
-      {layer("\"fixed\": @{\"all\": true}"), "expected an array, found an object"},
-      {layer("\"fixed\": [@{}]"),
-       "expected a selection, one of \"all\", \"indices\", \"box\", \"sphere\", \"nearest\", \"component\", "
-       "\"labels\", found an object without members"},
-      {layer("\"fixed\": [@{\"boxes\": 1}]"),
-       "expected a selection, one of \"all\", \"indices\", \"box\", \"sphere\", \"nearest\", \"component\", "
-       "\"labels\", found \"boxes\""},
-      {layer("\"fixed\": [@{\"all\": true, \"component\": 1}]"),
-       "expected a selection, one of \"all\", \"indices\", \"box\", \"sphere\", \"nearest\", \"component\", "
-       "\"labels\", found \"all\" and \"component\""},
-      {layer("\"fixed\": [{\"all\": @false}]"), "expected true, found false"},
-      {layer("\"fixed\": [{\"indices\": [0, @-1]}]"), "expected a whole number from 0 to 4294967294, found -1"},
-      {layer("\"fixed\": [{\"indices\": [@1.5]}]"), "expected a whole number from 0 to 4294967294, found 1.5"},
-      {layer("\"fixed\": [{\"indices\": @3}]"), "expected an array, found 3"},
-      {layer("\"fixed\": [{\"box\": @[[0,0,0]]}]"), "expected 2 corners [min, max], found an array of 1"},
-      {layer("\"fixed\": [{\"box\": [[0,0,0],@[1,1]]}]"), "expected 3 numbers [x, y, z], found an array of 2"},
-      {layer("\"fixed\": [{\"box\": @[[0,0,2],[1,1,1]]}]"),
-       "expected a box whose min is nowhere above its max, found one that is"},
-      {layer("\"fixed\": [{\"sphere\": @{\"center\": [0,0,0]}}]"), "expected \"radius\", found only \"center\""},
-      {layer("\"fixed\": [{\"sphere\": {\"center\": [0,0,0], \"radius\": @-1}}]"),
-       "expected a number of at least 0, found -1"},
-      {layer("\"fixed\": [{\"nearest\": [0, @\"a\", 0]}]"), "expected a number, found \"a\""},
-      {layer("\"fixed\": [@{\"labels\": \"a.sel\"}]"), "expected \"value\", found only \"labels\""},
-      {handle("@{\"move\": [0,0,0]}"), "expected \"points\", found only \"move\""},
-      {handle("@{\"points\": {\"all\": true}}"),
-       "expected a motion: \"move\", \"rotate\", \"matrix\" or \"to\", found none"},
-      {handle(points + "\"to\": @[[0,0,0]], \"move\": [0,0,0]}"),
-       "expected \"to\" alone, found another motion beside it"},
-      {handle(points + "\"to\": @[]}"), "expected at least one target, found none"},
-      {handle(points + "\"rotate\": {\"axis\": @[0,0,0], \"degrees\": 1}}"),
-       "expected an axis of a length above 0, found [0, 0, 0]"},
-      {handle(points + "\"matrix\": @[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,2]]}"),
-       "expected a last row of [0, 0, 0, 1], found another"},
-      {handle(points + "\"matrix\": [@1,0,0,0]}"), "expected 4 numbers, a row of the matrix, found 1"},
-      {layer("\"stiffness\": [{\"points\": {\"all\": true}, \"factor\": @0}]"), "expected a number above 0, found 0"},
-      {layer("\"examples\": [@3]"), "expected a text, found 3"},
-      {layer("\"keys\": [{\"frame\": @1.5, \"handles\": []}]"),
-       "expected a whole number from -2147483648 to 2147483647, found 1.5"},
-      {layer("\"start\": [@[1,2,3]]"), "expected 12 numbers, a 3x4 matrix row by row, found an array of 3"},
-  };
-  for (const auto& [text, sentence] : cases) EXPECT_EQ(mistake_of(text), sentence) << text;
-  EXPECT_GE(std::size(cases), 40u);
+  for (const auto& [text, sentence] : bad_edits()) EXPECT_EQ(mistake_of(text), sentence) << text;
+  EXPECT_GE(bad_edits().size(), 40u);
 }
 
 TEST(Edit, DeepNestingAndManyMembersAreRefused) {

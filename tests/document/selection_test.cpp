@@ -9,6 +9,7 @@
 
 #include "engine/geometry/error.h"
 #include "tests/document/toy_method.h"
+#include "tests/io/temporary_folder.h"
 #include "tests/shared_data.h"
 
 namespace sinew::document {
@@ -69,7 +70,8 @@ TEST(Selection, Components) {
 }
 
 TEST(Selection, Labels) {
-  const std::string path = testing::TempDir() + "labels.sel";
+  const TemporaryFolder folder;
+  const std::string path = folder / "labels.sel";
   std::ofstream(path) << "# one a point\n0 1\n1 # to the end of the line 5\n-3\r\n2\n";
   Selector selector(line_of_points(5));
   EXPECT_EQ(selector.points(select(SelectLabels{path, 1})), (std::vector<Index>{1, 2}));
