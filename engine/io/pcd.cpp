@@ -61,9 +61,24 @@ std::vector<std::byte> parsed(const std::string& path, std::span<const std::byte
   return values;
 }
 
+/// How many bytes LZF data unpack to, by its runs alone, so that memory is asked for what is there.
+std::uint64_t unpacked_length(std::span<const std::byte> packed) {
+  std::uint64_t length = 0;
+  for (std::size_t i = 0; i < packed.size();) {
+    const auto control = std::to_integer<std::size_t>(packed[i++]);
+    if (control < 32) {
+      length += control + 1;
+      i += control + 1;
+      continue;
+    }
+    const std::size_t shortened = control >> 5;
+    length += 2 + shortened + (shortened == 7 && i < packed.size() ? std::to_integer<std::size_t>(packed[i]) : 0);
+    i += shortened == 7 ? 2 : 1;
+  }
+  return length;
+}
+
 std::vector<std::byte> unpacked(const std::string& path, std::span<const std::byte> bytes, const PcdHeader& header) {
-  // A byte of LZF gives at most 264 / 3 bytes (a reference of three bytes to the longest match).
-  constexpr std::uint64_t most_ratio = 88;
   ByteCursor cursor(path, bytes, header.begin);
   const auto packed = cursor.number<std::uint32_t>(false, "the size of the packed data");
   const auto size = cursor.number<std::uint32_t>(false, "the size of the unpacked data");
@@ -72,11 +87,12 @@ std::vector<std::byte> unpacked(const std::string& path, std::span<const std::by
     throw byte_error(path, static_cast<std::int64_t>(header.begin + 4),
                      std::to_string(expected) + " unpacked bytes for " + std::to_string(header.points) + " points",
                      std::to_string(size));
-  if (packed > cursor.left() || size > packed * most_ratio)
-    throw byte_error(path, static_cast<std::int64_t>(header.begin), "packed data of " + std::to_string(size) + " bytes",
-                     std::to_string(packed) + " bytes, " + std::to_string(cursor.left()) + " to the end of the file");
-  std::vector<std::byte> values(size);
   const auto from = cursor.take(packed, "packed data");
+  if (const std::uint64_t length = unpacked_length(from); length != size)
+    throw byte_error(path, static_cast<std::int64_t>(header.begin + 8),
+                     "LZF data that unpack to " + std::to_string(size) + " bytes",
+                     "data for " + std::to_string(length));
+  std::vector<std::byte> values(size);
   if (size > 0 && lzf_decompress(from.data(), packed, values.data(), size) != size)
     throw byte_error(path, static_cast<std::int64_t>(header.begin + 8),
                      "LZF data that unpack to " + std::to_string(size) + " bytes", "damaged data");
@@ -99,19 +115,13 @@ class Grouping {
     if (!take("color", Kind::Color, {"r", "g", "b", "a"}, true)) take("color", Kind::Color, {"r", "g", "b"}, true);
     for (std::size_t f = 0; f < fields_.size(); ++f)
       if (!taken_[f] && fields_[f].name != "_")
-        groups_.push_back({free_name(fields_[f].name), is_id(fields_[f].name) ? Kind::Id : Kind::Scalar, {f}});
+        groups_.push_back({names_.add(fields_[f].name), is_id(fields_[f].name) ? Kind::Id : Kind::Scalar, {f}});
     return std::move(groups_);
   }
 
  private:
   bool has(const std::string& name) const {
     return std::any_of(groups_.begin(), groups_.end(), [&](const PcdGroup& group) { return group.name == name; });
-  }
-
-  std::string free_name(const std::string& name) const {
-    std::string out = name;
-    for (int i = 2; has(out) || out == "normal" || out == "color"; ++i) out = name + " " + std::to_string(i);
-    return out;
   }
 
   bool take(const char* name, Kind kind, const std::vector<const char*>& wanted, bool same_type) {
@@ -135,6 +145,7 @@ class Grouping {
 
   const std::vector<PcdField>& fields_;
   std::vector<bool> taken_;
+  UniqueNames names_;
   std::vector<PcdGroup> groups_;
 };
 

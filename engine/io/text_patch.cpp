@@ -182,11 +182,23 @@ void append_color(std::vector<std::byte>& out, const Attribute& color, std::size
   }
 }
 
+std::string UniqueNames::add(const std::string& name) {
+  std::string out = name;
+  while (!taken_.insert(out).second) {
+    int& last = last_.try_emplace(name, 1).first->second;
+    out = name + " " + std::to_string(++last);
+  }
+  return out;
+}
+
 void report_lost_attributes(const std::string& format, const Shape& shape, const std::vector<std::string>& held,
                             WriteReport& report) {
   for (const Attribute& attribute : shape.attributes)
     if (std::find(held.begin(), held.end(), attribute.name) == held.end())
-      report.lost.push_back(format + " cannot hold the attribute \"" + attribute.name + "\".");
+      report.lost.push_back(format + " cannot hold the attribute " + quoted(attribute.name) + ".");
+  if (!shape.parts.empty())
+    report.lost.push_back(format + " cannot hold the division into " + std::to_string(shape.parts.size()) +
+                          " scans and their poses.");
 }
 
 std::string counted(std::size_t count, const char* singular, const char* plural) {

@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -93,7 +95,20 @@ bool is_text_color(const Attribute& color);
 /// " r g b" or " r g b a" of point i: bytes as 0 to 255, or as fractions of 1 where `fractions`.
 void append_color(std::vector<std::byte>& out, const Attribute& color, std::size_t i, bool fractions);
 
-/// "NAME cannot hold the attribute "intensity"." for each attribute whose name is not among `held`.
+/// Names of attributes, each different: "a", "a 2", "a 3".
+class UniqueNames {
+ public:
+  /// Names that only vectors and colours should have are taken from the start.
+  UniqueNames() : taken_{"position", "normal", "color"} {}
+  std::string add(const std::string& name);
+
+ private:
+  std::set<std::string> taken_;
+  std::map<std::string, int> last_;  ///< number given to a name
+};
+
+/// "NAME cannot hold the attribute "intensity"." for each attribute whose name is not among `held`, and a sentence for
+/// the scans of a set.
 void report_lost_attributes(const std::string& format, const Shape& shape, const std::vector<std::string>& held,
                             WriteReport& report);
 

@@ -58,14 +58,6 @@ bool has_group(const std::vector<Group>& groups, const std::string& name) {
   return std::any_of(groups.begin(), groups.end(), [&](const Group& group) { return group.name == name; });
 }
 
-/// `name`, or with a number behind where it is taken, or means vectors.
-std::string free_name(const std::vector<Group>& groups, const std::string& name) {
-  std::string out = name;
-  for (int i = 2; has_group(groups, out) || out == "normal" || out == "color"; ++i)
-    out = name + " " + std::to_string(i);
-  return out;
-}
-
 std::vector<Group> groups_by_name(const std::vector<std::string>& names) {
   std::vector<std::string> keys;
   for (const std::string& name : names) keys.push_back(lower(name));
@@ -82,10 +74,11 @@ std::vector<Group> groups_by_name(const std::vector<std::string>& names) {
     for (const std::size_t c : group.columns) taken[c] = true;
     groups.push_back(group);
   }
+  UniqueNames unique;
   for (std::size_t c = 0; c < names.size(); ++c) {
     if (taken[c]) continue;
     const bool id = keys[c] == "label" || keys[c] == "class" || keys[c] == "classification" || keys[c] == "id";
-    groups.push_back({free_name(groups, names[c]), id ? Kind::Id : Kind::Scalar, {c}});
+    groups.push_back({unique.add(names[c]), id ? Kind::Id : Kind::Scalar, {c}});
   }
   return groups;
 }
@@ -194,8 +187,10 @@ class XyzReader {
       if (field.size() > 1 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
       names.emplace_back(field);
     }
-    const auto groups = groups_by_name(names);
-    if (names.size() > most_columns || groups.empty() || groups.front().name != "position") return false;
+    const auto is_there = [&](const char* key) {
+      return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return lower(name) == key; });
+    };
+    if (names.size() > most_columns || !is_there("x") || !is_there("y") || !is_there("z")) return false;
     names_ = std::move(names);
     return true;
   }

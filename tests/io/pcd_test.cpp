@@ -258,18 +258,30 @@ TEST(Pcd, RefusesInOneSentence) {
       {packed + raw(std::uint32_t{1}, std::uint32_t{13}) + "x",
        "test: byte " + std::to_string(packed.size() + 4) + ": expected 12 unpacked bytes for 1 points, found 13"},
       {packed + raw(std::uint32_t{9}, std::uint32_t{12}) + "x",
-       "test: byte " + std::to_string(packed.size()) +
-           ": expected packed data of 12 bytes, found 9 bytes, 1 to the end of the file"},
+       "test: byte " + std::to_string(packed.size() + 8) +
+           ": expected 9 bytes of packed data, found the end of the file after 1"},
       {packed + raw(std::uint32_t{1}, std::uint32_t{12}) + "x",
+       "test: byte " + std::to_string(packed.size() + 8) +
+           ": expected LZF data that unpack to 12 bytes, found data for 5"},
+      {packed + raw(std::uint32_t{3}, std::uint32_t{12}) + "\xe0\x03\x10",
        "test: byte " + std::to_string(packed.size() + 8) +
            ": expected LZF data that unpack to 12 bytes, found damaged data"},
   };
   for (const Case& c : cases) EXPECT_EQ(refusal(read_pcd, c.text), c.sentence) << c.text;
   // Sizes that agree with each other but not with what so few bytes can hold.
   const std::string huge = header("x y z", "8 8 8", "F F F", "1 1 1", 100000, 1000, "binary_compressed");
-  EXPECT_EQ(refusal(read_pcd, huge + raw(std::uint32_t{1000}, std::uint32_t{2400000000}) + std::string(1000, 'x')),
-            "test: byte " + std::to_string(huge.size()) +
-                ": expected packed data of 2400000000 bytes, found 1000 bytes, 1000 to the end of the file");
+  EXPECT_EQ(refusal(read_pcd, huge + raw(std::uint32_t{1000}, std::uint32_t{2400000000}) + std::string(1000, '\xff')),
+            "test: byte " + std::to_string(huge.size() + 8) +
+                ": expected LZF data that unpack to 2400000000 bytes, found data for 87921");
+}
+
+TEST(Pcd, ManyFieldsOfOneNameAreNoTrap) {
+  std::string names = "FIELDS x y z";
+  for (int i = 0; i < 1021; ++i) names += " a";
+  const Shape shape = read_text(read_pcd, names + "\nPOINTS 0\nDATA ascii\n");
+  EXPECT_EQ(shape.attributes.size(), 1021u);
+  EXPECT_EQ(shape.attributes.back().name, "a 1021");
+  EXPECT_EQ(refusal(read_pcd, names + " a\n"), "test:1:2056: expected at most 1024 fields, found \"a\"");
 }
 
 TEST(Pcd, WritesWhatAnotherFormatHeld) {
