@@ -34,6 +34,7 @@ struct Measured {
   Vec3 p;
   Vec3 normal;
   float intensity = 0, confidence = 0;
+  float light = 0;  ///< that the skin gives back, without the angle
 };
 
 /// The rays of one place: ray (row, column) goes from `eye` through corner + column du + row dv.
@@ -77,7 +78,7 @@ struct Grid {
   Rays rays;
   std::vector<double> surface;  ///< range of the surface itself
   std::vector<double> range;    ///< the one measured
-  std::vector<float> intensity;
+  std::vector<float> intensity, light;
   std::vector<char> in_air;
 
   std::size_t index(int row, int column) const {
@@ -113,6 +114,7 @@ void shoot(Grid& grid, int row, int column, const Random& random) {
 
   grid.range[i] = t + noise * random.normal(1);
   grid.intensity[i] = static_cast<float>(light * (0.4 + 0.6 * std::max(cosine, 0.0)));
+  grid.light[i] = static_cast<float>(light);
 }
 
 /// Points in the air: behind edges, and strays.
@@ -131,6 +133,7 @@ void add_air(Grid& grid, int row, int column, const Random& random) {
   if (depth == 0) return;
   grid.range[i] = t + depth;
   grid.intensity[i] = static_cast<float>(0.05 + 0.3 * random.uniform(24));
+  grid.light[i] = grid.intensity[i];
   grid.in_air[i] = 1;
 }
 
@@ -157,12 +160,13 @@ Vec3 grid_normal(const Grid& grid, int row, int column) {
 
 /// Everything that is measured from one place.
 std::vector<Measured> scan_from(std::size_t place, double pitch, std::uint64_t seed) {
-  Grid grid{rays_from(place, pitch), {}, {}, {}, {}};
+  Grid grid{rays_from(place, pitch), {}, {}, {}, {}, {}};
   const int rows = grid.rays.rows, columns = grid.rays.columns;
   const std::size_t count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
   grid.surface.assign(count, none);
   grid.range.assign(count, none);
   grid.intensity.assign(count, 0);
+  grid.light.assign(count, 0);
   grid.in_air.assign(count, 0);
 
   const auto each_ray = [&](const auto& body) {
@@ -180,7 +184,7 @@ std::vector<Measured> scan_from(std::size_t place, double pitch, std::uint64_t s
     for (int column = 0; column < columns; ++column) {
       const std::size_t i = grid.index(row, column);
       if (grid.range[i] == none) continue;
-      Measured point{grid.point(row, column), grid_normal(grid, row, column), grid.intensity[i], 0};
+      Measured point{grid.point(row, column), grid_normal(grid, row, column), grid.intensity[i], 0, grid.light[i]};
       const double cosine = -point.normal.dot(grid.rays.direction(row, column));
       point.confidence = static_cast<float>(grid.in_air[i] ? 0.1 * cosine : cosine);
       found.push_back(point);
@@ -193,6 +197,13 @@ std::vector<std::vector<Measured>> scan_all(double pitch, std::uint64_t seed) {
   std::vector<std::vector<Measured>> scans;
   for (std::size_t place = 0; place < place_count; ++place) scans.push_back(scan_from(place, pitch, seed));
   return scans;
+}
+
+/// The colour of skin that gives back this much light: from black over brown to cream, each 0 to 255.
+Vec3 skin_color(double light) {
+  const Vec3 black(24, 20, 18), brown(146, 88, 48), cream(238, 220, 186);
+  const double t = std::clamp(light / 0.45, 0.0, 1.0), u = std::clamp((light - 0.45) / 0.45, 0.0, 1.0);
+  return black + t * (brown - black) + u * (cream - brown);
 }
 
 std::size_t count_of(const std::vector<std::vector<Measured>>& scans) {
@@ -227,6 +238,7 @@ Shape sample_animal(std::size_t points, std::uint64_t seed) {
   shape.position_type = Type::Float32;
   shape.positions.reserve(points);
   Attribute normal = make_attribute("normal", {"nx", "ny", "nz"}, Kind::Normal, Type::Float32, points);
+  Attribute color = make_attribute("color", {"red", "green", "blue"}, Kind::Color, Type::UInt8, points);
   Attribute intensity = make_attribute("intensity", {"intensity"}, Kind::Scalar, Type::Float32, points);
   Attribute confidence = make_attribute("confidence", {"confidence"}, Kind::Scalar, Type::Float32, points);
   Attribute scan_number = make_attribute("scan", {"scan"}, Kind::Id, Type::UInt8, points);
@@ -240,12 +252,14 @@ Shape sample_animal(std::size_t points, std::uint64_t seed) {
       if (!kept) continue;
       shape.positions.push_back(point.p.cast<float>().cast<double>());
       for (int c = 0; c < 3; ++c) normal.set_number(i, c, point.normal[c]);
+      for (int c = 0; c < 3; ++c) color.set_number(i, c, skin_color(point.light)[c]);
       intensity.set_number(i, 0, point.intensity);
       confidence.set_number(i, 0, point.confidence);
       scan_number.set_number(i, 0, double(place));
     }
   CHECK(shape.size() == points, shape.size(), points);
-  shape.attributes = {std::move(normal), std::move(intensity), std::move(confidence), std::move(scan_number)};
+  shape.attributes = {std::move(normal), std::move(color), std::move(intensity), std::move(confidence),
+                      std::move(scan_number)};
   return shape;
 }
 

@@ -11,9 +11,9 @@
 namespace sinew::samples {
 
 /// The sample animal, scanned: exactly `points` points, scan after scan, un-merged. Attributes: normal (of the scan's
-/// own grid, towards the scanner), intensity in [0, 1], confidence in [0, 1] (cosine between normal and ray; points in
-/// the air have little), scan (number of the place). The same for the same arguments on any number of threads.
-/// points >= 1000.
+/// own grid, towards the scanner), color, intensity in [0, 1], confidence in [0, 1] (cosine between normal and ray;
+/// points in the air have little), scan (number of the place). The same for the same arguments on any number of
+/// threads. points >= 1000.
 Shape sample_animal(std::size_t points, std::uint64_t seed = 1);
 
 }  // namespace sinew::samples
