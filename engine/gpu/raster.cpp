@@ -1,5 +1,6 @@
 #include "engine/gpu/raster.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -94,6 +95,35 @@ void fill_triangle(RasterImage& image, const Eigen::Vector3f& a, const Eigen::Ve
   }
 }
 
+/// A triangle that reaches before the near plane: what is behind it, as a fan. Nothing where a corner is not to be
+/// seen.
+void fill_clipped(RasterImage& image, const RasterItem& item, std::size_t face, int first_row, int end_row) {
+  const auto indices = item.triangles->indices.as<std::uint32_t>();
+  const auto positions = (item.rest ? item.points->rest : item.points->positions).as<Eigen::Vector3f>();
+  const auto colors = item.points->colors.as<PointColor>();
+  Eigen::Vector4f corners[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::uint32_t i = indices[3 * face + k];
+    if ((colors[i].marks & shared::mark_hidden) != 0 || !positions[i].allFinite()) return;
+    corners[k] = item.constants.clip * positions[i].homogeneous();
+  }
+  // Reversed depth: what is not too near has z <= w.
+  const auto behind = [](const Eigen::Vector4f& p) { return p.w() - p.z(); };
+  std::vector<Eigen::Vector3f> fan;
+  const auto add = [&](const Eigen::Vector4f& p) {
+    fan.emplace_back((0.5f + 0.5f * p.x() / p.w()) * static_cast<float>(image.width),
+                     (0.5f + 0.5f * p.y() / p.w()) * static_cast<float>(image.height), p.z() / p.w());
+  };
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector4f &p = corners[k], &q = corners[(k + 1) % 3];
+    const float from = behind(p), to = behind(q);
+    if (from >= 0) add(p);
+    if ((from >= 0) != (to >= 0)) add(p + (q - p) * (from / (from - to)));
+  }
+  const std::uint32_t id = item.first_id + static_cast<std::uint32_t>(face);
+  for (std::size_t k = 2; k < fan.size(); ++k) fill_triangle(image, fan[0], fan[k - 1], fan[k], id, first_row, end_row);
+}
+
 void fill_triangles(RasterImage& image, const RasterItem& item, int first_row, int end_row) {
   const auto indices = item.triangles->indices.as<std::uint32_t>();
   const auto low = static_cast<float>(first_row), high = static_cast<float>(end_row);
@@ -101,7 +131,10 @@ void fill_triangles(RasterImage& image, const RasterItem& item, int first_row, i
     const Eigen::Vector3f& a = item.projected[indices[3 * f]];
     const Eigen::Vector3f& b = item.projected[indices[3 * f + 1]];
     const Eigen::Vector3f& c = item.projected[indices[3 * f + 2]];
-    if (a.z() == 0 || b.z() == 0 || c.z() == 0) continue;
+    if (a.z() == 0 || b.z() == 0 || c.z() == 0) {
+      fill_clipped(image, item, f, first_row, end_row);
+      continue;
+    }
     if (std::max({a.y(), b.y(), c.y()}) < low || std::min({a.y(), b.y(), c.y()}) > high) continue;
     fill_triangle(image, a, b, c, item.first_id + static_cast<std::uint32_t>(f), first_row, end_row);
   }

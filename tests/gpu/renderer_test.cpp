@@ -130,6 +130,20 @@ TEST_F(RendererTest, ShadersAndProcessorDrawTheSameGround) {
   shaders(scene);
 }
 
+TEST_F(RendererTest, AFaceThatReachesBehindTheEyeIsCutThere) {
+  const std::vector<Eigen::Vector3d> corners{{-5, -1, 10}, {5, -1, 10}, {5, -1, -50}, {-5, -1, -50}};
+  Points floor = create_points(test_device(), false, corners, std::vector<Eigen::Vector3d>(4, {0, 1, 0}));
+  colors_of(floor)[0].r = 20;
+  Scene scene = plain_scene();
+  scene.smooth_edges = false;
+  scene.camera.eye = {0, 0, 2};
+  scene.camera.near = 0.01;
+  scene.meshes.push_back({&floor, &faces_});
+  const Picture a = shaders(scene), b = raster(scene);
+  EXPECT_GT(a.at(100, 150)[1], 60);
+  EXPECT_LT(difference(a, b, 8), 0.01);
+}
+
 TEST_F(RendererTest, MarksTintAndSelectionIsOutlined) {
   Scene scene = plain_scene();
   scene.meshes.push_back({&square_, &faces_});

@@ -1,4 +1,3 @@
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -7,117 +6,22 @@
 #include "engine/gpu/draw_shapes.h"
 #include "engine/gpu/raster.h"
 #include "engine/gpu/raster_ground.h"
+#include "engine/gpu/raster_surface.h"
 
 namespace sinew::gpu {
 namespace {
 
 using Eigen::Vector3f;
-using shared::DrawConstants;
 
 constexpr int pad = 8;                               ///< columns and rows around the padded depths
 constexpr int most_edl_radius = pad;                 ///< so that every neighbour is there
 constexpr std::size_t most_samples = 1 << 25;        ///< of a smoothed raster: above, one sample a pixel must do
 constexpr std::uint32_t selected_bit = 0x80000000u;  ///< alpha's highest bit, as the shaders use alpha 1
 
-Vector3f color_of(std::uint32_t rgba) {
-  return Vector3f(static_cast<float>(rgba & 255), static_cast<float>(rgba >> 8 & 255),
-                  static_cast<float>(rgba >> 16 & 255)) /
-         255.0f;
-}
-
 std::uint32_t packed_color(const Vector3f& color) {
   const Vector3f scaled = (color.cwiseMax(0).cwiseMin(1) * 255.0f).array() + 0.5f;
   return static_cast<std::uint32_t>(scaled.x()) | static_cast<std::uint32_t>(scaled.y()) << 8 |
          static_cast<std::uint32_t>(scaled.z()) << 16;
-}
-
-/// What surface.glsl does.
-Vector3f to_eye(const DrawConstants& c, const Vector3f& position) {
-  return (c.eye.head<3>() - c.eye.w() * position).normalized();
-}
-
-float light_on(const DrawConstants& c, const Vector3f& normal, const Vector3f& eye) {
-  const float sky = (c.flags & shared::draw_z_up) != 0 ? normal.z() : normal.y();
-  return shared::surface_light(normal.dot(c.light), sky, normal.dot(eye));
-}
-
-Vector3f tinted(const DrawConstants& c, const PointColor& color) {
-  Vector3f out(color.r / 255.0f, color.g / 255.0f, color.b / 255.0f);
-  for (std::uint32_t k = 0; k < 3; ++k)
-    if ((color.marks >> k & 1) != 0) out += shared::mark_strength * (color_of(c.mark_colors[k]) - out);
-  return out;
-}
-
-struct Shaded {
-  Vector3f color;
-  bool selected = false;
-  float alpha = 1;
-};
-
-Shaded shade_point(const RasterItem& item, std::size_t i) {
-  const DrawConstants& c = item.constants;
-  if ((c.flags & shared::draw_ghost) != 0)
-    return {color_of(c.ghost_color), false, static_cast<float>(c.ghost_color >> 24) / 255.0f};
-  const PointColor& color = item.points->colors.as<PointColor>()[i];
-  float light = shared::unlit;
-  if ((c.flags & shared::draw_normals) != 0) {
-    const Vector3f normal = (item.rest ? item.points->rest_normals : item.points->normals).as<Vector3f>()[i];
-    const Vector3f eye = to_eye(c, (item.rest ? item.points->rest : item.points->positions).as<Vector3f>()[i]);
-    light = light_on(c, normal.dot(eye) < 0 ? Vector3f(-normal) : normal, eye);
-  }
-  return {tinted(c, color) * light, (color.marks & shared::mark_selected) != 0};
-}
-
-/// Weights of the corners at a pixel's centre, corrected for perspective (depth is one over the distance there).
-Vector3f corner_weights(const RasterItem& item, const std::uint32_t* corners, float x, float y) {
-  const Vector3f &a = item.projected[corners[0]], &b = item.projected[corners[1]], &c = item.projected[corners[2]];
-  const float ux = b.x() - a.x(), uy = b.y() - a.y(), vx = c.x() - a.x(), vy = c.y() - a.y();
-  const float inverse = 1 / (ux * vy - uy * vx);
-  const float v = ((x - a.x()) * vy - (y - a.y()) * vx) * inverse;
-  const float w = (ux * (y - a.y()) - uy * (x - a.x())) * inverse;
-  Vector3f weights(1 - v - w, v, w);
-  if (item.constants.eye.w() > 0) weights = weights.cwiseProduct(Vector3f(a.z(), b.z(), c.z()));
-  return weights / weights.sum();
-}
-
-Shaded shade_face(const RasterItem& item, std::size_t face, float x, float y) {
-  const DrawConstants& c = item.constants;
-  const std::uint32_t* corners = item.triangles->indices.as<std::uint32_t>().data() + 3 * face;
-  const Vector3f weights = corner_weights(item, corners, x, y);
-  const auto positions = (item.rest ? item.points->rest : item.points->positions).as<Vector3f>();
-  const auto colors = item.points->colors.as<PointColor>();
-  const Vector3f &p0 = positions[corners[0]], &p1 = positions[corners[1]], &p2 = positions[corners[2]];
-  const Vector3f eye = to_eye(c, weights[0] * p0 + weights[1] * p1 + weights[2] * p2);
-  Vector3f n = (p1 - p0).cross(p2 - p0).normalized();
-  if (n.dot(eye) < 0) n = -n;
-  Vector3f color(0, 0, 0), smooth(0, 0, 0);
-  float selected = 0;
-  for (int k = 0; k < 3; ++k) {
-    color += weights[k] * tinted(c, colors[corners[k]]);
-    selected += (colors[corners[k]].marks & shared::mark_selected) != 0 ? weights[k] : 0;
-  }
-  if ((c.flags & shared::draw_flat) == 0) {
-    const auto normals = (item.rest ? item.points->rest_normals : item.points->normals).as<Vector3f>();
-    for (int k = 0; k < 3; ++k) smooth += weights[k] * normals[corners[k]];
-    if (smooth.squaredNorm() > 0) n = smooth.dot(n) < 0 ? Vector3f(-smooth.normalized()) : smooth.normalized();
-  }
-  if ((c.flags & shared::draw_ghost) != 0) {
-    const float rim = 1 - std::abs(n.dot(eye));
-    return {color_of(c.ghost_color), false,
-            static_cast<float>(c.ghost_color >> 24) / 255.0f * (0.25f + 0.75f * rim * rim)};
-  }
-  return {color * light_on(c, n, eye), selected > 0.5f};
-}
-
-Shaded shade(std::span<const RasterItem> items, const RasterImage& image, std::size_t pixel) {
-  const std::uint32_t id = image.id(pixel);
-  std::size_t k = items.size() - 1;
-  while (items[k].first_id > id) --k;
-  const std::size_t element = id - items[k].first_id;
-  if (items[k].triangles == nullptr) return shade_point(items[k], element);
-  const auto width = static_cast<std::size_t>(image.width);
-  return shade_face(items[k], element, static_cast<float>(pixel % width) + 0.5f,
-                    static_cast<float>(pixel / width) + 0.5f);
 }
 
 struct Raster {
