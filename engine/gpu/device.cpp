@@ -6,6 +6,7 @@
 
 #include "engine/geometry/error.h"
 #include "engine/gpu/pipeline.h"
+#include "engine/gpu/sanitized.h"
 #include "shaders/shared.h"
 
 namespace sinew::gpu {
@@ -227,6 +228,7 @@ Device::~Device() {
 }
 
 std::unique_ptr<Device> create_device(const DeviceOptions& options) {
+  keep_drivers_loaded();
   auto device = std::make_unique<Device>();
   create_instance(*device, options);
   if (options.create_surface) device->surface = options.create_surface(device->instance);
