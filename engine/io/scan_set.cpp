@@ -1,5 +1,7 @@
 #include "engine/io/scan_set.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -96,7 +98,7 @@ void append_scan(Shape& shape, const std::string& name, const Entry& entry, cons
     for (Index& corner : corners) corner += part.first;
     shape.faces.add(corners);
   }
-  for (const std::string& note : own.notes) shape.notes.push_back(name + ": " + note);
+  for (const std::string& note : own.notes) shape.notes.push_back(fmt::format("{}: {}", name, note));
   shape.parts.push_back(std::move(part));
 }
 

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -161,7 +163,7 @@ std::vector<NamedBytes> scan_set_files(const Shape& shape, const std::string& co
     if (format.write == nullptr) throw file_error(name, "a format of one scan", format.name);
     WriteReport own;
     files.push_back({name, format.write(name, scan, own)});
-    for (const std::string& sentence : own.lost) report.lost.push_back(name + ": " + sentence);
+    for (const std::string& sentence : own.lost) report.lost.push_back(fmt::format("{}: {}", name, sentence));
     names.push_back(name);
   }
   const std::string fallback = content != nullptr ? content->name : "scans.conf";
