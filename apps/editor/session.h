@@ -92,7 +92,7 @@ class Session {
   const std::shared_ptr<const Shape>& input() const { return input_; }
   const std::string& input_path() const { return input_path_; }
   const std::string& edit_path() const { return edit_path_; }     ///< empty: never saved
-  bool dirty() const;                                             ///< differs from what is on the disk
+  bool dirty() const { return dirty_; }                           ///< differs from what is on the disk
   const std::vector<std::string>& lost() const { return lost_; }  ///< what the last export's format could not hold
 
   // What is shown
@@ -251,7 +251,7 @@ class Session {
 
   std::optional<Drag> drag_;
   std::optional<Settling> settling_;
-  std::uint64_t ticket_ = 0;        ///< of the newest request
+  std::uint64_t ticket_ = 0;  ///< of the newest request
   std::uint64_t shown_ticket_ = 0;
   std::uint64_t final_ticket_ = 0;  ///< of the newest one that asked for Quality::Final
   bool answered_ = true;            ///< the newest final request has its finished answer

@@ -1,0 +1,113 @@
+#include "apps/editor/coloring.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sinew::editor {
+
+namespace {
+
+constexpr gpu::PointColor plain{204, 202, 198, 0};
+constexpr std::array<gpu::PointColor, 6> tints{{{206, 203, 198, 0},
+                                                {198, 205, 210, 0},
+                                                {204, 208, 196, 0},
+                                                {211, 200, 197, 0},
+                                                {201, 199, 211, 0},
+                                                {194, 207, 204, 0}}};
+
+bool can_color(const Shape& shape, const Attribute& attribute) {
+  if (!attribute.per_point() || attribute.count() != shape.size()) return false;
+  if (attribute.kind == Kind::Color) return attribute.components >= 3;
+  return (attribute.kind == Kind::Scalar || attribute.kind == Kind::Id) && attribute.components == 1;
+}
+
+/// What stands for full brightness in a colour attribute.
+double full_scale(const Attribute& attribute) {
+  switch (attribute.type) {
+    case Type::UInt8: return 255;
+    case Type::UInt16: return 65535;
+    default: break;
+  }
+  double largest = 0;
+  for (std::size_t i = 0; i < attribute.count(); ++i)
+    for (int c = 0; c < 3; ++c) largest = std::max(largest, attribute.number(i, c));
+  return largest > 1 ? 255 : 1;  // written as 0..1 or as 0..255
+}
+
+void color_by_colors(const Attribute& attribute, std::vector<gpu::PointColor>& colors) {
+  const double scale = 255 / full_scale(attribute);
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const auto channel = [&](int c) {
+      const double value = attribute.number(i, c) * scale;
+      return static_cast<std::uint8_t>(value > 0 ? std::min(255.0, value) + 0.5 : 0);
+    };
+    colors[i] = {channel(0), channel(1), channel(2), 0};
+  }
+}
+
+void color_by_numbers(const Attribute& attribute, Coloring& out) {
+  std::vector<double> values;
+  values.reserve(attribute.count());
+  const std::size_t stride = attribute.count() / 200'000 + 1;
+  for (std::size_t i = 0; i < attribute.count(); i += stride)
+    if (const double value = attribute.number(i, 0); std::isfinite(value)) values.push_back(value);
+  if (values.empty()) return;
+  const auto percentile = [&](double part) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+  };
+  out.low = percentile(0.01);
+  out.high = percentile(0.99);
+  out.has_range = true;
+  const double range = out.high - out.low;
+  for (std::size_t i = 0; i < out.colors.size(); ++i) {
+    const double value = attribute.number(i, 0);
+    if (std::isfinite(value)) out.colors[i] = viridis(range > 0 ? (value - out.low) / range : 0.5);
+  }
+}
+
+}  // namespace
+
+gpu::PointColor viridis(double x) {
+  constexpr std::array<std::array<double, 3>, 9> table{{{68, 1, 84},
+                                                        {71, 44, 122},
+                                                        {59, 81, 139},
+                                                        {44, 113, 142},
+                                                        {33, 144, 141},
+                                                        {39, 173, 129},
+                                                        {92, 200, 99},
+                                                        {170, 220, 50},
+                                                        {253, 231, 37}}};
+  const double at = std::clamp(x, 0.0, 1.0) * 8;
+  const std::size_t low = std::min<std::size_t>(7, static_cast<std::size_t>(at));
+  const double part = at - static_cast<double>(low);
+  const auto channel = [&](std::size_t c) {
+    return static_cast<std::uint8_t>(table[low][c] + part * (table[low + 1][c] - table[low][c]) + 0.5);
+  };
+  return {channel(0), channel(1), channel(2), 0};
+}
+
+std::vector<std::string> color_choices(const Shape& shape) {
+  std::vector<std::string> names;
+  for (const Attribute& attribute : shape.attributes)
+    if (can_color(shape, attribute)) names.push_back(attribute.name);
+  return names;
+}
+
+Coloring coloring_of(const Shape& shape, const std::string& attribute) {
+  Coloring out;
+  out.colors.assign(shape.size(), plain);
+  for (std::size_t part = 0; part < shape.parts.size(); ++part)
+    std::fill_n(out.colors.begin() + shape.parts[part].first, shape.parts[part].count, tints[part % tints.size()]);
+  const Attribute* found = attribute.empty() ? nullptr : shape.find(attribute);
+  if (found == nullptr || !can_color(shape, *found)) return out;
+  if (found->kind == Kind::Color)
+    color_by_colors(*found, out.colors);
+  else
+    color_by_numbers(*found, out);
+  return out;
+}
+
+}  // namespace sinew::editor

@@ -1,0 +1,256 @@
+#include "apps/editor/editor.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "deformers/methods.h"
+
+namespace sinew::editor {
+
+namespace {
+
+/// Longest wait for the shape of a mouse event before the picture is drawn without it.
+constexpr double shape_patience = 0.012;
+
+gpu::DeviceOptions device_options(const Window& window, bool validation) {
+  gpu::DeviceOptions options = window.device_options();
+  options.validation = validation;
+  return options;
+}
+
+float used_scale(const Preferences& preferences, const Window& window) {
+  const double scale = preferences.scale > 0 ? preferences.scale : window.content_scale();
+  return static_cast<float>(std::clamp(scale, 0.75, 4.0));
+}
+
+bool same_camera(const gpu::Camera& a, const gpu::Camera& b) {
+  return a.eye == b.eye && a.target == b.target && a.up == b.up && a.shift == b.shift && a.fov == b.fov &&
+         a.orthographic == b.orthographic;
+}
+
+}  // namespace
+
+Editor::Editor(const EditorOptions& options)
+    : window_(options.window),
+      device_(gpu::create_device(device_options(window_, options.validation))),
+      paths_(gpu::measure_paths(*device_)),
+      swapchain_(gpu::create_swapchain(*device_)),
+      renderer_(gpu::create_renderer(*device_, paths_, swapchain_.format)),
+      frame_(gpu::create_frame(*device_)),
+      gui_(std::make_unique<Gui>(window_, *device_, swapchain_.cover, 3)),
+      preferences_path_(preferences_path()),
+      session_(methods(), Window::wake),
+      context_{session_, view_, preferences_, [this](Request request) { answer(request); }},
+      stage_(*device_, paths_),
+      mouse_(context_),
+      ui_{context_, stage_, mouse_},
+      to_open_(options.files.begin(), options.files.end()) {
+  LoadedPreferences loaded = load_preferences(preferences_path_);
+  preferences_ = saved_preferences_ = loaded.preferences;
+  if (!loaded.notice.empty()) session_.notify(Severity::Warning, loaded.notice);
+  view_.up = preferences_.up;
+  view_.point_size = preferences_.point_size;
+  view_.brush_radius = preferences_.brush_radius;
+  view_.depth = preferences_.through ? Depth::Through : Depth::VisibleOnly;
+  ui_.device = paths_.sentence;
+  ui_.sample = options.sample;
+  ui_.navigation_choice = !preferences_.asked_navigation;
+  if (!options.times.empty()) times_.open(options.times);
+  last_step_ = now();
+  use_preferences();
+}
+
+Editor::~Editor() {
+  gpu::finish(*device_, frame_);
+  gpu::wait_idle(*device_);
+}
+
+void Editor::run() {
+  while (!quit_) {
+    window_.wait(patience());
+    take_events();
+    take_changes();
+    if (shape_moved_ == false && session_.dragging()) wait_for_shape();
+    if (wants_frame()) draw();
+    open_next();
+    if (window_.played_all() && !session_.job() && !session_.solving()) quit_ = true;
+  }
+}
+
+void Editor::use_preferences() {
+  gui_->use(preferences_.dark ? dark_theme() : light_theme(), used_scale(preferences_, window_));
+  if (preferences_ == saved_preferences_) return;
+  const std::string problem = save_preferences(preferences_path_, preferences_);
+  if (!problem.empty()) session_.notify(Severity::Warning, problem);
+  saved_preferences_ = preferences_;
+}
+
+void Editor::interface_frame(VkExtent2D size) {
+  view_.size = {size.width, size.height};
+  gui_->begin(size);
+  ui_.layout = layout_of(ui_, static_cast<float>(size.width), static_cast<float>(size.height));
+  // The target stands in the middle of what panels leave free.
+  const Layout& layout = ui_.layout;
+  view_.camera.shift = {static_cast<double>(layout.column / layout.width) - 1,
+                        1 - static_cast<double>((layout.top + layout.bottom) / layout.height)};
+}
+
+void Editor::take_events() {
+  std::deque<InputEvent>& events = window_.events();
+  while (!events.empty()) {
+    // One change of a button or key a frame of the interface, so that none is lost however slow the pictures are.
+    std::vector<InputEvent> batch;
+    bool change = false;
+    while (!events.empty() && !change) {
+      const InputEvent::What what = events.front().what;
+      change = what == InputEvent::What::Button || what == InputEvent::What::Key;
+      batch.push_back(std::move(events.front()));
+      events.pop_front();
+      gui_->feed(batch.back());
+    }
+    const VkExtent2D size = window_.size();
+    if (size.width == 0 || size.height == 0) {
+      for (const InputEvent& event : batch)
+        if (event.what == InputEvent::What::Close) quit();
+      continue;
+    }
+    interface_frame(size);
+    for (const InputEvent& event : batch) deliver(event);
+    show_ui(ui_);
+    ImGui::EndFrame();
+    frames_wanted_ = 2;
+  }
+}
+
+void Editor::deliver(const InputEvent& event) {
+  const bool was_dragging = session_.dragging();
+  const std::uint64_t before = session_.asked();
+  switch (event.what) {
+    case InputEvent::What::Close: quit(); return;
+    case InputEvent::What::Drop: to_open_.insert(to_open_.end(), event.paths.begin(), event.paths.end()); return;
+    case InputEvent::What::Key: press_key(event); break;
+    default: break;
+  }
+  const bool over_ui = ImGui::GetIO().WantCaptureMouse && !mouse_.busy();
+  mouse_.handle(event, over_ui);
+  if (was_dragging && session_.dragging() && session_.asked() != before)
+    asked_.emplace_back(session_.asked(), event.time);
+}
+
+void Editor::press_key(const InputEvent& event) {
+  if (event.action == 0 || ImGui::GetIO().WantTextInput) return;
+  if (ui_.dialog() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
+  if (mouse_.press(event.code, event.modifiers)) return;
+  if (const Command* command = command_for(event.code, event.modifiers, context_)) run_command(*command, context_);
+}
+
+void Editor::take_changes() {
+  const double time = now(), step = time - last_step_;
+  last_step_ = time;
+  if (view_.glide.running()) {
+    const Eigen::Vector2d shift = view_.camera.shift;
+    view_.camera = view_.glide.advance(std::min(step, 0.05));
+    view_.camera.shift = shift;
+  }
+  const Changed changed = session_.poll();
+  stage_.note(changed);
+  if (changed.input) show_new_input();
+  if (changed.any()) frames_wanted_ = std::max(frames_wanted_, 1);
+  shape_moved_ |= changed.pose || changed.input;
+  use_preferences();
+  const std::string name = std::filesystem::path(session_.input_path()).filename().string();
+  window_.set_title(name.empty() ? "Sinew" : fmt::format("{}{} - Sinew", name, session_.dirty() ? " *" : ""));
+}
+
+void Editor::show_new_input() {
+  view_.glide.stop();
+  if (!session_.has_input()) return;
+  ui_.layout = layout_of(ui_, static_cast<float>(view_.size.x()), static_cast<float>(view_.size.y()));
+  view_.camera.shift = {static_cast<double>(ui_.layout.column / ui_.layout.width) - 1,
+                        1 - static_cast<double>((ui_.layout.top + ui_.layout.bottom) / ui_.layout.height)};
+  gpu::look_from(view_.camera, "iso", view_.up);
+  view_.camera = framed(view_.camera, session_.rest_bounds(), view_.size.x() / view_.size.y());
+  view_.color_by.clear();
+  for (const Attribute& attribute : session_.input()->attributes)
+    if (attribute.kind == Kind::Color && view_.color_by.empty()) view_.color_by = attribute.name;
+  add_recent(preferences_, std::filesystem::absolute(session_.input_path()).string());
+}
+
+/// A picture takes longer than an interactive solve: the shape of the newest mouse event is worth a short wait.
+void Editor::wait_for_shape() {
+  const double end = now() + shape_patience;
+  while (!asked_.empty() && session_.shown_ticket() < asked_.back().first && now() < end) {
+    window_.wait(std::max(1e-4, end - now()));
+    const Changed changed = session_.poll();
+    stage_.note(changed);
+    shape_moved_ |= changed.pose;
+    if (changed.any()) frames_wanted_ = std::max(frames_wanted_, 1);
+  }
+}
+
+bool Editor::wants_frame() const {
+  return frames_wanted_ > 0 || view_.glide.running() || !detail_.complete() || ui_.wants_frames || acquired_late_;
+}
+
+double Editor::patience() const {
+  if (quit_ || frames_wanted_ > 0 || view_.glide.running()) return 0;
+  if (!to_open_.empty() && !session_.job()) return 0;
+  if (acquired_late_ || !detail_.complete()) return 0.02;
+  if (ui_.wants_frames) return 0.033;
+  if (ImGui::GetIO().WantTextInput || !ui_.toasts.empty() || session_.job()) return 0.1;
+  return -1;
+}
+
+void Editor::draw() {
+  const VkExtent2D size = window_.size();
+  gpu::begin_frame(*device_, frame_);
+  acquired_late_ = false;
+  if (size.width == 0 || size.height == 0) {
+    frames_wanted_ = 0;
+    return;
+  }
+  if (!gpu::acquire(*device_, swapchain_, size)) {
+    acquired_late_ = true;
+    return;
+  }
+  if (frames_wanted_ > 0) --frames_wanted_;
+  ui_.wants_frames = false;
+  interface_frame(swapchain_.extent);
+  show_ui(ui_);
+  window_.set_cursor(Gui::cursor());
+  ImGui::Render();
+  const bool moving = shape_moved_ || mouse_.dragging() || !same_camera(view_.camera, drawn_camera_);
+  drawn_camera_ = view_.camera;
+  shape_moved_ = false;
+  draw_scene(moving);
+}
+
+void Editor::draw_scene(bool moving) {
+  const double begin = now();
+  stage_.update(frame_, session_, view_);
+  const std::size_t count = detail_.begin_frame(stage_.is_mesh() ? 0 : stage_.points(), moving, begin);
+  const std::uint64_t ticket = session_.shown_ticket();
+  Bounds bounds = session_.rest_bounds();
+  if (session_.has_input())
+    for (const HandleView& handle : session_.handles()) bounds.add(handle.target);
+  gpu::Camera& camera = view_.camera;
+  gpu::fit_depth(camera, bounds);
+  const gpu::Scene scene = stage_.scene(session_, view_, theme(), count);
+  VkCommandBuffer commands = gpu::begin_picture(*device_, *renderer_, frame_, scene, gpu::final_target(swapchain_));
+  gui_->draw(commands);
+  gpu::end_picture(*device_, frame_, commands);
+  gpu::submit(*device_, frame_, gpu::acquired(swapchain_), gpu::drawn(swapchain_));
+  gpu::present(*device_, swapchain_);
+  gpu::finish(*device_, frame_);
+  detail_.end_frame(now() - begin);
+  const double shown = now();
+  while (!asked_.empty() && (asked_.front().first <= ticket || !session_.dragging())) {
+    if (times_.is_open() && asked_.front().first <= ticket)
+      times_ << fmt::format("{:.6f} {}\n", shown - asked_.front().second, count);
+    asked_.pop_front();
+  }
+}
+
+}  // namespace sinew::editor

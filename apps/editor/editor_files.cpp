@@ -1,0 +1,135 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "apps/editor/editor.h"
+#include "engine/gpu/offscreen.h"
+#include "engine/gpu/png.h"
+#include "engine/io/io.h"
+
+namespace sinew::editor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> extensions(bool written) {
+  std::vector<std::string> out;
+  for (const io::Format& format : io::formats())
+    if (!written || format.write != nullptr) out.insert(out.end(), format.extensions.begin(), format.extensions.end());
+  if (!written) out.emplace_back("json");
+  return out;
+}
+
+/// "bunny.ply" as "bunny-bent.ply" in the same folder.
+std::string beside(const std::string& path, const std::string& suffix, const std::string& extension) {
+  const fs::path from(path);
+  return (from.parent_path() / (from.stem().string() + suffix + extension)).string();
+}
+
+bool is_edit(const std::string& path) {
+  return fs::path(path).extension() == ".json";
+}
+
+}  // namespace
+
+void Editor::answer(Request request) {
+  switch (request) {
+    case Request::Open: choose_file_to_open(); break;
+    case Request::SaveAs: choose_file_to_save(); break;
+    case Request::Export: choose_file_to_export(); break;
+    case Request::Screenshot: {
+      const std::string path = beside(session_.input_path(), "", ".png");
+      ui_.files.open({.title = "Save a picture of the scene",
+                      .action = "Save",
+                      .save = true,
+                      .extensions = {"png"},
+                      .start = path,
+                      .note = {},
+                      .done = [this](const std::string& chosen) { save_screenshot(chosen); }});
+      break;
+    }
+    case Request::Palette: ui_.palette = true; break;
+    case Request::Keymap: ui_.keymap = true; break;
+    case Request::About: ui_.about = true; break;
+    case Request::Preferences: ui_.settings = true; break;
+    case Request::NavigationChoice: ui_.navigation_choice = true; break;
+    case Request::Quit: quit(); break;
+  }
+}
+
+void Editor::open_next() {
+  if (to_open_.empty() || session_.job()) return;
+  const std::string path = to_open_.front();
+  to_open_.pop_front();
+  open(path);
+}
+
+void Editor::open(const std::string& path) {
+  const auto open_it = [this, path] {
+    view_.manipulation.reset();
+    session_.open(path);
+  };
+  if (session_.dirty() && !is_edit(path))
+    ui_.ask = {"The edit is not saved. Open " + fs::path(path).filename().string() + " without saving it?",
+               "Open without saving", open_it};
+  else
+    open_it();
+  frames_wanted_ = 2;
+}
+
+void Editor::choose_file_to_open() {
+  std::string start = session_.input_path();
+  if (start.empty() && !preferences_.recent.empty()) start = preferences_.recent.front();
+  ui_.files.open({.title = "Open",
+                  .action = "Open",
+                  .save = false,
+                  .extensions = extensions(false),
+                  .start = start.empty() ? "." : fs::absolute(start).parent_path().string(),
+                  .note = {},
+                  .done = [this](const std::string& path) { to_open_.push_back(path); }});
+}
+
+void Editor::choose_file_to_save() {
+  const std::string path =
+      session_.edit_path().empty() ? beside(session_.input_path(), ".edit", ".json") : session_.edit_path();
+  ui_.files.open({.title = "Save the edit",
+                  .action = "Save",
+                  .save = true,
+                  .extensions = {"json"},
+                  .start = path,
+                  .note = "A small file with marks and motions; `sinew deform` bends the same shape by it.",
+                  .done = [this](const std::string& chosen) { session_.save_edit(chosen); }});
+}
+
+void Editor::choose_file_to_export() {
+  const std::string extension = fs::path(session_.input_path()).extension().string();
+  ui_.files.open({.title = "Export the bent shape",
+                  .action = "Export",
+                  .save = true,
+                  .extensions = extensions(true),
+                  .start = beside(session_.input_path(), "-bent", extension),
+                  .note = "Positions and normals change; everything else is written as it was read.",
+                  .done = [this](const std::string& chosen) { session_.export_shape(chosen, true); }});
+}
+
+void Editor::save_screenshot(const std::string& path) {
+  gpu::finish(*device_, frame_);
+  gpu::begin_frame(*device_, frame_);
+  stage_.update(frame_, session_, view_);
+  gpu::RendererHandle renderer = gpu::create_renderer(*device_, paths_, gpu::offscreen_format);
+  const gpu::Offscreen offscreen = gpu::create_offscreen(*device_, swapchain_.extent);
+  const gpu::Scene scene = stage_.scene(session_, view_, theme(), stage_.points());
+  gpu::write_png(path, gpu::render_picture(*device_, *renderer, offscreen, scene));
+  session_.notify(Severity::Info, path + " holds a picture of the scene.");
+}
+
+void Editor::quit() {
+  if (!session_.dirty()) {
+    quit_ = true;
+    return;
+  }
+  ui_.ask = {"The edit is not saved. Close without saving it?", "Close without saving", [this] { quit_ = true; }};
+  frames_wanted_ = 2;
+}
+
+}  // namespace sinew::editor

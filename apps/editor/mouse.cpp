@@ -1,0 +1,271 @@
+#include "apps/editor/mouse.h"
+
+#include "apps/editor/theme.h"
+
+namespace sinew::editor {
+
+namespace {
+
+constexpr double double_click_seconds = 0.35;
+
+double slack() {
+  return 4 * static_cast<double>(scale());
+}
+
+/// The bit of a key that is a modifier itself; 0 for others.
+int modifier_of(int key) {
+  switch (key) {
+    case key::left_shift:
+    case key::right_shift: return modifier::shift;
+    case key::left_control:
+    case key::right_control: return modifier::control;
+    case key::left_alt:
+    case key::right_alt: return modifier::alt;
+    default: return 0;
+  }
+}
+
+bool draws_strokes(Tool tool) {
+  return tool == Tool::Box || tool == Tool::Lasso || tool == Tool::Brush;
+}
+
+}  // namespace
+
+void Mouse::handle(const InputEvent& event, bool over_ui) {
+  switch (event.what) {
+    case InputEvent::What::Move: move(event); break;
+    case InputEvent::What::Button:
+      modifiers_ = event.modifiers & modifier::all;
+      if (event.action == 0)
+        release_button(event);
+      else if (!over_ui)
+        press_button(event);
+      break;
+    case InputEvent::What::Wheel:
+      if (!over_ui) wheel(event.y);
+      break;
+    case InputEvent::What::Key:
+      if (const int bit = modifier_of(event.code)) {
+        modifiers_ = event.action != 0 ? modifiers_ | bit : modifiers_ & ~bit;
+        update_manipulation(context_.session, context_.view, modifiers_);
+      }
+      break;
+    case InputEvent::What::Focus:
+      if (event.action == 0) modifiers_ = 0;
+      break;
+    default: break;
+  }
+}
+
+bool Mouse::press(int key, int modifiers) {
+  View& view = context_.view;
+  if (view.manipulation) {
+    if (!view.manipulation->press(key, modifiers)) return modifier_of(key) == 0;
+    finish_manipulation();
+    return true;
+  }
+  if (key == key::escape && stroke_) {
+    stroke_.reset();
+    left_down_ = false;
+    return true;
+  }
+  return false;
+}
+
+void Mouse::press_button(const InputEvent& event) {
+  View& view = context_.view;
+  const auto button = static_cast<MouseButton>(event.code);
+  pressed_at_ = last_;
+  moved_ = false;
+  if (view.manipulation) {
+    if (!view.modal) return;
+    if (button == MouseButton::Left)
+      view.manipulation->confirm();
+    else
+      view.manipulation->cancel();
+    finish_manipulation();
+    return;
+  }
+  if (!context_.session.has_input()) return;
+  const bool wanted = draws_strokes(view.tool) || hovered_part() != GizmoPart::None || hovered_handle();
+  const NavigationAction action = navigation_action(context_.preferences.navigation, button, modifiers_, !wanted);
+  if (action != NavigationAction::None) {
+    view.glide.stop();
+    navigation_ = action;
+    navigating_button_ = button;
+    grabbed_ = action == NavigationAction::Orbit ? std::nullopt : point_under(last_);
+    if (button == MouseButton::Left) left_down_ = true;
+    return;
+  }
+  if (button == MouseButton::Left) press_left(modifiers_);
+}
+
+void Mouse::press_left(int modifiers) {
+  View& view = context_.view;
+  left_down_ = true;
+  pressed_handle_ = hovered_handle();
+  const GizmoPart part = hovered_part();
+  if (part != GizmoPart::None && context_.session.chosen_handle()) {
+    begin_manipulation(context_.session, view, gizmo()->kind, part, false);
+    return;
+  }
+  if (pressed_handle_) {
+    context_.session.choose_handle(pressed_handle_);
+    return;
+  }
+  Stroke stroke;
+  stroke.tool = draws_strokes(view.tool) ? view.tool : Tool::Box;
+  stroke.mode = select_mode(modifiers);
+  stroke.points = {last_};
+  stroke_ = std::move(stroke);
+  if (stroke_->tool == Tool::Brush) brush(last_, last_);
+}
+
+void Mouse::release_button(const InputEvent& event) {
+  View& view = context_.view;
+  const auto button = static_cast<MouseButton>(event.code);
+  if (navigation_ != NavigationAction::None && button == navigating_button_) {
+    navigation_ = NavigationAction::None;
+    if (button == MouseButton::Left && left_down_ && !moved_) click(modifiers_);
+    left_down_ = false;
+    return;
+  }
+  if (button != MouseButton::Left || !left_down_) return;
+  left_down_ = false;
+  if (view.manipulation && !view.modal) {
+    view.manipulation->confirm();
+    finish_manipulation();
+    return;
+  }
+  if (!moved_)
+    click(modifiers_);
+  else if (stroke_)
+    end_stroke();
+  stroke_.reset();
+  pressed_handle_.reset();
+}
+
+void Mouse::move(const InputEvent& event) {
+  View& view = context_.view;
+  const Eigen::Vector2d at(event.x, event.y), step = at - last_;
+  last_ = view.mouse = at;
+  if ((at - pressed_at_).norm() > slack()) moved_ = true;
+  switch (navigation_) {
+    case NavigationAction::Orbit: orbit(view.camera, step, view.size, view.up); return;
+    case NavigationAction::Pan: pan(view.camera, step, view.size, grabbed_); return;
+    case NavigationAction::Zoom:
+      zoom(view.camera, zoom_of_drag(step.y()), pressed_at_, view.size, context_.session.rest_bounds().diagonal(),
+           grabbed_);
+      return;
+    case NavigationAction::None: break;
+  }
+  if (view.manipulation) {
+    update_manipulation(context_.session, view, modifiers_);
+    return;
+  }
+  if (!left_down_ || !moved_) return;
+  if (pressed_handle_) {
+    const GizmoKind kind = view.tool == Tool::Rotate ? GizmoKind::Rotate : GizmoKind::Translate;
+    view.mouse = pressed_at_;
+    begin_manipulation(context_.session, view, kind, GizmoPart::Screen, false);
+    view.mouse = at;
+    pressed_handle_.reset();
+    update_manipulation(context_.session, view, modifiers_);
+  } else if (stroke_) {
+    if (stroke_->tool == Tool::Brush) brush(at - step, at);
+    if (stroke_->tool == Tool::Box && stroke_->points.size() == 2) stroke_->points.pop_back();
+    stroke_->points.push_back(at);
+  }
+}
+
+void Mouse::wheel(double steps) {
+  View& view = context_.view;
+  if (!context_.session.has_input() || steps == 0) return;
+  view.glide.stop();
+  if (wheel_at_ != last_) {
+    wheel_at_ = last_;
+    wheel_under_ = point_under(last_);
+  }
+  zoom(view.camera, zoom_of_wheel(steps), last_, view.size, context_.session.rest_bounds().diagonal(), wheel_under_);
+}
+
+void Mouse::click(int modifiers) {
+  const bool again = now() - last_click_ < double_click_seconds && (last_ - last_click_at_).norm() < slack();
+  last_click_ = again ? -1 : now();
+  last_click_at_ = last_;
+  if (again) {
+    double_click();
+    return;
+  }
+  if (pressed_handle_ || (stroke_ && stroke_->tool == Tool::Brush)) return;
+  Session& session = context_.session;
+  const SelectMode mode = select_mode(modifiers);
+  PointSet touched(session.input()->size());
+  if (const std::optional<Index> point = click_point(screen(), last_, 2 * slack())) touched.add(*point);
+  if (!touched.empty() || mode == SelectMode::Replace) session.select(touched, mode);
+  if (touched.empty()) session.choose_handle({});
+}
+
+void Mouse::double_click() {
+  View& view = context_.view;
+  if (const std::optional<Vec3> pivot = point_under(last_)) glide_to(view, with_pivot(view.camera, *pivot));
+}
+
+void Mouse::finish_manipulation() {
+  follow_manipulation(context_.session, context_.view);
+  if (!context_.view.manipulation) left_down_ = false;
+}
+
+void Mouse::end_stroke() {
+  Session& session = context_.session;
+  const Depth depth = context_.view.depth;
+  if (stroke_->tool == Tool::Box && stroke_->points.size() == 2)
+    session.select(in_box(screen(), stroke_->points[0], stroke_->points[1], depth), stroke_->mode);
+  else if (stroke_->tool == Tool::Lasso && stroke_->points.size() > 2)
+    session.select(in_polygon(screen(), stroke_->points, depth), stroke_->mode);
+}
+
+void Mouse::brush(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+  const double radius = context_.view.brush_radius * static_cast<double>(scale());
+  context_.session.select(in_stroke(screen(), from, to, radius, context_.view.depth), stroke_->mode);
+  // The first dab replaces what was selected; the rest of the stroke belongs to it.
+  if (stroke_->mode == SelectMode::Replace) stroke_->mode = SelectMode::Add;
+}
+
+const ScreenPoints& Mouse::screen() {
+  screen_.update(context_.view.camera, context_.view.size, context_.session.bent_positions(),
+                 context_.session.bent_version());
+  return screen_;
+}
+
+std::optional<Vec3> Mouse::point_under(const Eigen::Vector2d& at) {
+  const std::optional<Index> point = click_point(screen(), at, 3 * slack());
+  if (!point) return std::nullopt;
+  return context_.session.bent_positions()[*point];
+}
+
+std::vector<Vec3> Mouse::balls() const {
+  std::vector<Vec3> out;
+  for (const HandleView& handle : context_.session.handles()) out.push_back(handle.target);
+  return out;
+}
+
+std::optional<Gizmo> Mouse::gizmo() const {
+  std::optional<Gizmo> gizmo = gizmo_of(context_.session, context_.view);
+  if (!gizmo) return gizmo;
+  if (context_.view.manipulation) gizmo->kind = context_.view.manipulation->kind();
+  gizmo->length *= static_cast<double>(scale());
+  return gizmo;
+}
+
+GizmoPart Mouse::hovered_part() const {
+  const std::optional<Gizmo> shown = gizmo();
+  if (!shown) return GizmoPart::None;
+  return hit_gizmo(*shown, context_.view.camera, context_.view.size, last_, 1.5 * slack());
+}
+
+std::optional<std::size_t> Mouse::hovered_handle() const {
+  return hit_handle(balls(), context_.view.camera, context_.view.size, last_, 2.5 * slack());
+}
+
+}  // namespace sinew::editor

@@ -1,0 +1,47 @@
+#pragma once
+/// Stage: a session's shape as the device has it, kept up to date, and the scene that shows it.
+
+#include <optional>
+
+#include "apps/editor/coloring.h"
+#include "apps/editor/session.h"
+#include "apps/editor/theme.h"
+#include "apps/editor/view.h"
+#include "engine/gpu/paths.h"
+#include "engine/gpu/renderer.h"
+
+namespace sinew::editor {
+
+class Stage {
+ public:
+  Stage(const gpu::Device& device, const gpu::Paths& paths) : device_(device), paths_(paths) {}
+
+  /// Remembers what is to be handed to the device by the next update().
+  void note(const Changed& changed);
+  /// Between begin_frame and submit.
+  void update(gpu::Frame& frame, Session& session, const View& view);
+
+  /// The scene of this frame; `count` of the points are drawn (level of detail).
+  gpu::Scene scene(Session& session, const View& view, const Theme& theme, std::size_t count) const;
+
+  std::size_t points() const { return points_ ? points_->count : 0; }
+  bool is_mesh() const { return triangles_.count > 0; }
+  const Coloring& coloring() const { return coloring_; }
+
+ private:
+  void take_input(const Shape& shape, const View& view);
+  void take_marks(Session& session);
+  void take_pose(gpu::Frame& frame, Session& session);
+  void add_structure(gpu::Scene& scene, const Session& session, const View& view) const;
+
+  const gpu::Device& device_;
+  const gpu::Paths& paths_;
+  Changed pending_;
+  std::optional<gpu::Points> points_;
+  gpu::Triangles triangles_;
+  Coloring coloring_;
+  std::string colored_by_;
+  const SkinWeights* weights_ = nullptr;  ///< that the device has
+};
+
+}  // namespace sinew::editor

@@ -1,0 +1,83 @@
+#pragma once
+/// Ui: what the panels share, and a function a panel. They are shown from top to bottom once a frame.
+
+#include <string>
+#include <vector>
+
+#include "apps/editor/commands.h"
+#include "apps/editor/mouse.h"
+#include "apps/editor/stage.h"
+#include "apps/editor/ui_files.h"
+
+namespace sinew::editor {
+
+/// Where things are in this frame, pixels.
+struct Layout {
+  float width = 0, height = 0;
+  float top = 0;     ///< below the menu bar
+  float bottom = 0;  ///< above the status line
+  float column = 0;  ///< left edge of the right column
+};
+
+struct Toast {
+  Notice notice;
+  double since = 0;
+};
+
+/// A question before something is lost; shown while its text is not empty.
+struct Question {
+  std::string text, action;
+  std::function<void()> confirmed;
+};
+
+struct Ui {
+  Context& context;
+  Stage& stage;
+  Mouse& mouse;
+  std::string device;  ///< "llvmpipe, CPU skinning"
+  std::string sample;  ///< path of the sample scan; empty: none
+  Layout layout;
+  float column_width = 272;  ///< at scale 1
+  bool column_open = true;
+  FileDialog files;
+  std::vector<Toast> toasts;
+  bool palette = false, keymap = false, about = false, settings = false, navigation_choice = false;
+  Question ask;
+  std::string palette_text;
+  int palette_row = 0;
+  std::size_t renaming = ~std::size_t{0};  ///< layer whose name is being typed
+  std::string new_name;
+  std::string edited_name;  ///< "layer/setting" of the number that is being dragged or typed, and what it is so far
+  double edited_value = 0;
+  bool wants_frames = false;  ///< something in the interface moves by itself
+
+  bool dialog() const {
+    return files.shown() || palette || keymap || about || settings || navigation_choice || !ask.text.empty();
+  }
+};
+
+/// The layout for a picture of this size.
+Layout layout_of(const Ui& ui, float width, float height);
+/// All of it.
+void show_ui(Ui& ui);
+
+void show_menu(Ui& ui);
+void show_tools(Ui& ui);   ///< tool bar at the left, switches at the top
+void show_column(Ui& ui);  ///< scene, layer, marks, show
+void show_status(Ui& ui);
+void show_start(Ui& ui);  ///< while nothing is open
+void show_job(Ui& ui);
+void show_toasts(Ui& ui);
+void show_palette(Ui& ui);
+void show_keymap(Ui& ui);
+void show_dialogs(Ui& ui);  ///< about, settings, navigation
+/// Gizmo, axes, lasso, brush, measures: over the scene, below the panels.
+void show_overlay(Ui& ui);
+
+/// "1,234,567".
+std::string grouped(std::size_t number);
+/// Shows a command's tooltip and runs it when its button is pressed.
+bool command_button(Ui& ui, const char* command, const char* icon, float side, const ImVec4& color, bool chosen);
+void run(Ui& ui, const char* command);
+
+}  // namespace sinew::editor

@@ -1,0 +1,133 @@
+#include <imgui.h>
+
+#include <array>
+#include <cmath>
+
+#include "apps/editor/icons.h"
+#include "apps/editor/theme.h"
+#include "apps/editor/ui.h"
+#include "apps/editor/widgets.h"
+
+namespace sinew::editor {
+
+namespace {
+
+/// A button of the tool bar; "" is a gap with a line.
+struct ToolRow {
+  const char* command;
+  const char* icon;
+  enum class Tint { Plain, Fixed, Handle, Free } tint = Tint::Plain;
+  int tool = -1;  ///< of enum Tool; -1: a command that is done at once
+};
+
+constexpr std::array<ToolRow, 11> rows{
+    {{"tool.select", icon::pointer, ToolRow::Tint::Plain, static_cast<int>(Tool::Select)},
+     {"tool.move", icon::move, ToolRow::Tint::Plain, static_cast<int>(Tool::Move)},
+     {"tool.rotate", icon::rotate, ToolRow::Tint::Plain, static_cast<int>(Tool::Rotate)},
+     {"", ""},
+     {"tool.box", icon::box, ToolRow::Tint::Plain, static_cast<int>(Tool::Box)},
+     {"tool.lasso", icon::lasso, ToolRow::Tint::Plain, static_cast<int>(Tool::Lasso)},
+     {"tool.brush", icon::brush, ToolRow::Tint::Plain, static_cast<int>(Tool::Brush)},
+     {"", ""},
+     {"mark.fixed", icon::fixed, ToolRow::Tint::Fixed},
+     {"mark.handle", icon::handle, ToolRow::Tint::Handle},
+     {"mark.free", icon::free, ToolRow::Tint::Free}}};
+
+ImVec4 color_of(ToolRow::Tint tint) {
+  switch (tint) {
+    case ToolRow::Tint::Fixed: return theme().fixed;
+    case ToolRow::Tint::Handle: return theme().handle;
+    case ToolRow::Tint::Free:
+    case ToolRow::Tint::Plain: break;
+  }
+  return theme().quiet;
+}
+
+void panel_style() {
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(6));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(5), px(5)));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(2), px(2)));
+}
+
+float bar_height(float side) {
+  float height = 2 * px(5) - px(2);
+  for (const ToolRow& row : rows) height += row.command[0] == 0 ? px(9) : side + px(2);
+  return height;
+}
+
+void show_bar(Ui& ui) {
+  const float side = px(measure::tool_button), left = px(measure::edge);
+  const float top = ui.layout.top + px(measure::edge), room = ui.layout.bottom - px(measure::edge) - top;
+  const bool one_column = bar_height(side) <= room;
+  const float width = one_column ? px(measure::tool_column) : 2 * side + px(12);
+  float height = bar_height(side);
+  if (!one_column) height = 2 * px(5) - px(2) + 2 * px(9) + (2 + 2 + 2) * (side + px(2));
+  panel_style();
+  widget::begin_panel("tools", {left, top}, {width, height});
+  bool second = false;
+  for (const ToolRow& row : rows) {
+    if (row.command[0] == 0) {
+      const ImVec2 at = ImGui::GetCursorScreenPos();
+      ImGui::GetWindowDrawList()->AddRectFilled({at.x + px(3), at.y + px(3)}, {at.x + width - px(13), at.y + px(4)},
+                                                packed(theme().line));
+      ImGui::Dummy({side, px(7)});
+      second = false;
+      continue;
+    }
+    if (!one_column && second) ImGui::SameLine(0, px(2));
+    second = !second;
+    const bool chosen = row.tool >= 0 && ui.context.view.tool == static_cast<Tool>(row.tool);
+    command_button(ui, row.command, row.icon, side, chosen ? theme().text : color_of(row.tint), chosen);
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(3);
+}
+
+void show_switches(Ui& ui) {
+  View& view = ui.context.view;
+  const char* depths[] = {"Visible only", "Through"};
+  const char* depth_help[] = {"Selecting reaches only what is seen", "Selecting reaches what stands behind, too"};
+  const char* spaces[] = {"Local", "World"};
+  const char* space_help[] = {"Handles move along axes that turned with them",
+                              "Handles move along the axes of the scene"};
+  const bool handle = ui.context.session.chosen_handle().has_value();
+  float width = 2 * px(4);
+  for (const char* name : depths) width += std::round(ImGui::CalcTextSize(name).x) + px(18);
+  if (handle) {
+    width += px(17);
+    for (const char* name : spaces) width += std::round(ImGui::CalcTextSize(name).x) + px(18);
+  }
+  const bool two_columns =
+      bar_height(px(measure::tool_button)) > ui.layout.bottom - ui.layout.top - 2 * px(measure::edge);
+  const float left =
+      px(measure::edge) * 2 + (two_columns ? 2 * px(measure::tool_button) + px(12) : px(measure::tool_column));
+  panel_style();
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(4), px(4)));
+  widget::begin_panel("switches", {left, ui.layout.top + px(measure::edge)}, {width, px(measure::row) + 2 * px(4)});
+  const int depth = widget::switch_of("depth", depths, view.depth == Depth::VisibleOnly ? 0 : 1, depth_help);
+  if (depth >= 0) {
+    view.depth = depth == 0 ? Depth::VisibleOnly : Depth::Through;
+    ui.context.preferences.through = depth == 1;
+  }
+  if (handle) {
+    ImGui::SameLine(0, px(8));
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, at.y + px(5)}, {at.x + px(1), at.y + px(19)},
+                                              packed(theme().line));
+    ImGui::SameLine(0, px(17));
+    const int space = widget::switch_of("space", spaces, view.space == Space::Local ? 0 : 1, space_help);
+    if (space >= 0) view.space = space == 0 ? Space::Local : Space::World;
+  }
+  ImGui::End();
+  ImGui::PopStyleVar(4);
+}
+
+}  // namespace
+
+void show_tools(Ui& ui) {
+  if (!ui.context.session.has_input()) return;
+  show_bar(ui);
+  show_switches(ui);
+}
+
+}  // namespace sinew::editor
