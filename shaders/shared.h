@@ -39,16 +39,16 @@ SHARED_CONST uint mark_hidden = 16u;
 
 // Skinning: addresses of tightly packed arrays. maps: m x 12 floats, columns of [A - I | t] (CSR as in skin_weights.h).
 struct SkinConstants {
-  uint64_t rest;            // n x vec3, relative to the points' centre
-  uint64_t rest_normals;    // n x vec3, or 0
-  uint64_t offsets;         // n + 1 uint
-  uint64_t map_indices;     // uint each
-  uint64_t weights;         // float each
+  uint64_t rest;          // n x vec3, relative to the points' centre
+  uint64_t rest_normals;  // n x vec3, or 0
+  uint64_t offsets;       // n + 1 uint
+  uint64_t map_indices;   // uint each
+  uint64_t weights;       // float each
   uint64_t maps;
-  uint64_t positions;       // out, n x vec3
-  uint64_t normals;         // out, n x vec3, or 0
-  uint first;               // points before this dispatch
-  uint count;               // n
+  uint64_t positions;  // out, n x vec3
+  uint64_t normals;    // out, n x vec3, or 0
+  uint first;          // points before this dispatch
+  uint count;          // n
 };
 SHARED_SIZE(SkinConstants, 72);
 SHARED_CONST uint skin_group = 64u;
@@ -60,40 +60,40 @@ SHARED_CONST uint draw_ghost = 4u;    // see-through, brighter towards its outli
 SHARED_CONST uint draw_z_up = 8u;     // the sky is where z grows; otherwise y
 SHARED_CONST uint draw_smooth = 16u;  // four samples a pixel
 struct DrawConstants {
-  mat4 clip;         // from the points' own coordinates
-  vec4 eye;          // w 1: the eye in those coordinates; w 0: the direction towards it (orthographic)
-  vec3 light;        // unit, towards the key light
+  mat4 clip;            // from the points' own coordinates
+  vec4 eye;             // w 1: the eye in those coordinates; w 0: the direction towards it (orthographic)
+  vec3 light;           // unit, towards the key light
   uint mark_colors[3];  // handle, fixed, rigid, RGBA8
-  uint flags;        // draw_*
-  float size;        // of a point, pixels
-  uint ghost_color;  // RGBA8
-  uint first_id;     // picking: id of the first point or face
+  uint flags;           // draw_*
+  float size;           // of a point, pixels
+  uint ghost_color;     // RGBA8
+  uint first_id;        // picking: id of the first point or face
 };
 SHARED_SIZE(DrawConstants, 120);
 
 // The picture behind everything, and the last pass over what was drawn.
 struct ComposeConstants {
-  uint top, bottom;      // backdrop, RGBA8
-  uint outline;          // around what is selected, RGBA8
-  float edl_strength;    // 0: none
-  float edl_radius;      // pixels
-  vec2 size;             // of the picture, pixels
-  float linear_depth;    // 0: perspective; otherwise what depth 1 is in units of the EDL's depth (orthographic)
+  uint top, bottom;    // backdrop, RGBA8
+  uint outline;        // around what is selected, RGBA8
+  float edl_strength;  // 0: none
+  float edl_radius;    // pixels
+  vec2 size;           // of the picture, pixels
+  float linear_depth;  // 0: perspective; otherwise what depth 1 is in units of the EDL's depth (orthographic)
 };
 SHARED_SIZE(ComposeConstants, 32);
 
 struct OverlayConstants {
   mat4 clip;
-  vec2 size;         // of the picture, pixels
-  vec2 depth_bias;   // depth * x + y is compared with what was drawn
+  vec2 size;        // of the picture, pixels
+  vec2 depth_bias;  // depth * x + y is compared with what was drawn
 };
 SHARED_SIZE(OverlayConstants, 80);
 
 struct GroundConstants {
-  mat4 clip;         // from plane coordinates (u, v, 0), unit = one cell, relative to the middle
-  vec2 origin;       // plane coordinates of the middle, cells, modulo 10
-  uint color;        // RGBA8
-  float radius;      // cells; fades to nothing there
+  mat4 clip;     // from plane coordinates (u, v, 0), unit = one cell, relative to the middle
+  vec2 origin;   // plane coordinates of the middle, cells, modulo 10
+  uint color;    // RGBA8
+  float radius;  // cells; fades to nothing there
 };
 SHARED_SIZE(GroundConstants, 80);
 
@@ -112,8 +112,9 @@ SHARED_CONST float mark_strength = 0.62f;
 SHARED_CONST float unlit = 0.80f;
 
 // Eye-dome lighting [Boucheny 2009]: how much darker a pixel is, from the sum over the neighbours on a ring of how much
-// nearer they are, log2(depth here / depth there), each at most edl_limit so that an outline stays a line. With reversed
-// depth z = near / depth that logarithm is (z_there - z_here) / (z_here ln 2) to first order, which is what is used.
+// nearer they are, log2(depth here / depth there), each at most edl_limit so that an outline stays a line. With
+// reversed depth z = near / depth that logarithm is (z_there - z_here) / (z_here ln 2) to first order, which is what is
+// used.
 SHARED_CONST int edl_taps = 8;
 SHARED_CONST float edl_limit = 0.04f;
 SHARED_CONST float inverse_ln2 = 1.442695f;

@@ -36,7 +36,7 @@ void bind_points(VkCommandBuffer commands, const Points& points, bool rest) {
 
 std::uint32_t ghost_color(const Look& look, double opacity) {
   Color color = look.ghost;
-  color.a = static_cast<std::uint8_t>(255 * std::clamp(opacity, 0.0, 1.0) + 0.5);
+  color.a = static_cast<std::uint8_t>(std::clamp(256 * opacity, 0.0, 255.0));
   return packed(color);
 }
 

@@ -3,6 +3,7 @@
 /// to one origin that the caller chose (a shape's own, usually); lengths on the screen are pixels.
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct Color {
   /// 0xf2932e, opacity 0..1.
   static constexpr Color hex(std::uint32_t rgb, double opacity = 1) {
     return {static_cast<std::uint8_t>(rgb >> 16), static_cast<std::uint8_t>(rgb >> 8 & 255),
-            static_cast<std::uint8_t>(rgb & 255), static_cast<std::uint8_t>(255 * opacity + 0.5)};
+            static_cast<std::uint8_t>(rgb & 255), static_cast<std::uint8_t>(std::min(255.0, 256 * opacity))};
   }
 };
 
@@ -25,7 +26,7 @@ struct Color {
 struct CloudItem {
   const Points* points = nullptr;
   double size = 2;  ///< diameter, pixels
-  /// Draw only the first so many of the points' order (all of them where they have no order).
+  /// Draw only so many: the first of the points' order, or of the points where they have none.
   std::size_t count = ~std::size_t{0};
   bool rest = false;  ///< the rest shape in place of the bent one
   double ghost = 0;   ///< 0: solid; otherwise opacity of a see-through ghost in the look's ghost colour
