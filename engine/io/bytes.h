@@ -72,4 +72,10 @@ inline std::string_view as_text(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+/// Throws InputError where the file is what Git leaves in place of a large one.
+inline void refuse_lfs_pointer(const std::string& path, std::span<const std::byte> bytes, const std::string& format) {
+  if (as_text(bytes).starts_with("version https://git-lfs"))
+    throw file_error(path, format + " data", "a Git LFS pointer (the file itself was not downloaded)");
+}
+
 }  // namespace sinew::io

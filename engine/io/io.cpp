@@ -109,8 +109,7 @@ void save_bytes(const std::string& path, std::span<const std::byte> bytes, bool 
 std::shared_ptr<const Shape> read(const std::string& path, const ReadOptions& options, const std::string& as) {
   const Format& format = format_for(path, as);
   std::vector<std::byte> bytes = load_bytes(path);
-  if (as_text(bytes).starts_with("version https://git-lfs"))
-    throw file_error(path, format.name + " data", "a Git LFS pointer (the file itself was not downloaded)");
+  refuse_lfs_pointer(path, bytes, format.name);
   auto shape = std::make_shared<Shape>(format.read(path, std::move(bytes), options));
   set_origin(*shape);
   return shape;

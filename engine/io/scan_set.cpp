@@ -72,7 +72,9 @@ std::shared_ptr<const Shape> read_scan(const std::string& path, const Entry& ent
   if (format.read == read_scan_set)
     throw text_error(path, entry.name.line, entry.name.column, "a file of points",
                      "another scan set, " + sinew::quoted(entry.name.text));
-  return std::make_shared<Shape>(format.read(file, load_bytes(file), options));
+  std::vector<std::byte> bytes = load_bytes(file);
+  refuse_lfs_pointer(file, bytes, format.name);
+  return std::make_shared<Shape>(format.read(file, std::move(bytes), options));
 }
 
 void check_size(const std::string& path, const Shape& shape, const Shape& own) {

@@ -164,7 +164,9 @@ WriteReport bend_whole(const std::string& in, std::vector<std::byte> bytes, cons
                        const StreamOptions& options, const std::function<void(Shape&)>& bend) {
   ReadOptions reading;
   if (options.progress) reading.progress = [&options](double x) { return options.progress(x / 2); };
-  Shape shape = format_for(in, options.as).read(in, std::move(bytes), reading);
+  const Format& format = format_for(in, options.as);
+  refuse_lfs_pointer(in, bytes, format.name);
+  Shape shape = format.read(in, std::move(bytes), reading);
   shape.origin = options.origin;
   for (Vec3& p : shape.positions) p -= options.origin;
   const std::size_t count = shape.size();

@@ -173,6 +173,10 @@ TEST(ScanSet, WrongFilesAreRefusedWithTheirPlace) {
   EXPECT_EQ(refused("bmesh no.ply 0 0 0 0 0 0 1"), "x.conf: expected a scan beside it, found none of \"no.ply\"");
   EXPECT_EQ(refused("bmesh set.conf 0 0 0 0 0 0 1"),
             "x.conf:1:7: expected a file of points, found another scan set, \"set.conf\"");
+  set.save("pointer.ply", "version https://git-lfs.github.com/spec/v1\n");
+  EXPECT_EQ(refused("bmesh pointer.ply 0 0 0 0 0 0 1"),
+            (set.folder / "pointer.ply") +
+                ": expected PLY data, found a Git LFS pointer (the file itself was not downloaded)");
   set.save("bad.ply", "plx\n");
   EXPECT_EQ(refused("bmesh bad.ply 0 0 0 0 0 0 1"), (set.folder / "bad.ply") + ":1:1: expected \"ply\", found \"plx\"");
 }
