@@ -44,8 +44,8 @@ struct Loop {
 
 thread_local bool inside_loop = false;
 
-/// Workers that sleep between loops. One loop at a time; a second caller does its own alone, so that a window never waits
-/// for the solver.
+/// Workers that sleep between loops. One loop at a time; a second caller does its own alone, so that a window never
+/// waits for the solver.
 class Pool {
  public:
   ~Pool() { resize(0); }

@@ -35,7 +35,7 @@ TEST(Components, OfACloudAreIslands) {
   add_patch(shape, Vec3(0.5, 0, 0));
   shape.positions.emplace_back(0.1, 0.1, 0.3);       // an outlier
   shape.positions.emplace_back(std::nan(""), 0, 0);  // not a point at all
-  add_patch(shape, Vec3(0.205, 0, 0));                // 0.015 from the first
+  add_patch(shape, Vec3(0.205, 0, 0));               // 0.015 from the first
   const Components components = connected_components(shape);
   EXPECT_EQ(components.count, 3u);
   EXPECT_EQ(components.of_point[0], 0u);
