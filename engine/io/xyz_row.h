@@ -37,7 +37,7 @@ class XyzFields {
   std::size_t at_ = 0;
 };
 
-/// The characters behind the sign of a comment line ("#", "//", ";"), or nothing's address where the line is none.
+/// What stands behind the sign of a comment line ("#", "//", ";"); its data() is null where the line is no comment.
 inline std::string_view xyz_comment(std::string_view line) {
   const std::size_t begin = line.find_first_not_of(" \t\v\f");
   if (begin == std::string_view::npos) return {};
