@@ -56,12 +56,16 @@ void GraphSolver::prepare(const std::vector<bool>& fixed, std::vector<GraphHandl
   rigid_.cholesky.analyse(rigid_.H);
   affine_ = {};
   affine_ready_ = false;
-  set_x(std::move(x_));
+  rest_what_is_held();
 }
 
 void GraphSolver::set_x(GraphState x) {
   CHECK(x.R.size() == nodes_.size() && x.t.size() == nodes_.size(), x.R.size(), nodes_.size());
   x_ = std::move(x);
+}
+
+/// Nodes that do not move go to rest. Not when x is set: that comes before the constraints it belongs to are known.
+void GraphSolver::rest_what_is_held() {
   for (Index j = 0; j < nodes_.size(); ++j)
     if (!free_[j]) {
       x_.R[j].setIdentity();
@@ -109,6 +113,7 @@ SolveReport GraphSolver::solve(std::span<const Vec3> targets, const SolveOptions
   const auto start = std::chrono::steady_clock::now();
   const bool final_answer = options.quality == SolveOptions::Quality::Final;
   energy_.set_targets(targets);
+  rest_what_is_held();
   GaussNewtonOptions plan{options.max_iterations, options.epsilon, 0, !plain_, on_iteration};
   GaussNewtonResult result;
   SolveReport report;

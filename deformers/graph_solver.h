@@ -25,10 +25,12 @@ class GraphSolver {
                     const std::function<bool()>& on_iteration);
 
   const GraphState& x() const { return x_; }
+  /// Where the next solve starts from; nodes that do not move then go to rest.
   void set_x(GraphState x);
 
  private:
   std::vector<bool> moving_nodes(const std::vector<bool>& fixed) const;
+  void rest_what_is_held();
   GaussNewtonResult minimise_rigid(const GaussNewtonOptions& options);
   GaussNewtonResult minimise_affine(const GaussNewtonOptions& options);
 

@@ -24,7 +24,9 @@ Session::Session(std::span<const Method> methods, std::function<void()> wake)
       measuring_(std::make_unique<Background>(wake_)),
       solver_(std::make_unique<document::SolverThread>(methods_, wake_)) {}
 
-Session::~Session() = default;
+Session::~Session() {
+  finish_waiting();
+}
 
 Changed Session::poll() {
   take_background();

@@ -188,20 +188,21 @@ class Session {
   bool dragging() const { return drag_.has_value(); }
 
  private:
-  struct Drag {
-    std::size_t handle = 0;
-    document::Project now;
-    Vec3 centre = Vec3::Zero();                ///< mean of the handle's points where the layer starts
-    std::uint64_t first_ticket = 0;            ///< of its requests
-    std::vector<document::LayerResult> shown;  ///< before it began
-    bool moved = false;
-  };
   /// The end of a drag on its way to the canonical answer.
   struct Settling {
     enum class Step { FromRest, FromDrag } step = Step::FromRest;
     std::size_t layer = 0;                                  ///< that was dragged
     std::vector<document::LayerResult> dragged, from_rest;  ///< shown when the drag ended; the first answer
     document::Project project;                              ///< with the drag's pose as Layer::start
+  };
+  struct Drag {
+    std::size_t handle = 0;
+    document::Project now;
+    Vec3 centre = Vec3::Zero();                ///< mean of the handle's points where the layer starts
+    std::uint64_t first_ticket = 0;            ///< of its requests
+    std::vector<document::LayerResult> shown;  ///< before it began
+    std::optional<Settling> settling;          ///< of the drag before, interrupted by this one
+    bool moved = false, unsettled = false;
   };
   struct Opened;
   /// What waits until the answer is settled.
@@ -223,6 +224,7 @@ class Session {
   bool settled() const;
   void start_waiting();
   void finish_waiting();
+  void resume(Drag drag);
   void save_now(const Waiting& waiting);
   void export_now(const Waiting& waiting);
   void with_neighbourhood(std::function<void()> then);

@@ -84,6 +84,8 @@ bool Session::begin_drag(std::size_t handle) {
   drag.centre = handle_rest_centres()[handle];
   drag.first_ticket = ticket_ + 1;
   drag.shown = shown_;
+  drag.settling = std::exchange(settling_, std::nullopt);
+  drag.unsettled = !answered_;
   drag_ = std::move(drag);
   return true;
 }
@@ -96,7 +98,6 @@ void Session::drag_to(const RigidMotion& motion) {
   if (wanted == now) return;
   now = wanted;
   drag_->moved = true;
-  settling_.reset();
   ask(SolveOptions::Quality::Interactive, drag_->now);
 }
 
@@ -104,7 +105,7 @@ void Session::end_drag() {
   if (!drag_) return;
   Drag drag = std::move(*std::exchange(drag_, std::nullopt));
   if (drag.now == project()) {
-    if (drag.moved) ask(SolveOptions::Quality::Final, project());
+    resume(std::move(drag));
     return;
   }
   // First as if there had been no drag: usually that ends in the same place, and the file stays small.
@@ -117,10 +118,16 @@ void Session::end_drag() {
 
 void Session::cancel_drag() {
   if (!drag_) return;
-  const Drag drag = std::move(*std::exchange(drag_, std::nullopt));
-  if (!drag.moved) return;
-  show_answer(drag.shown);
-  ask(SolveOptions::Quality::Final, project());
+  Drag drag = std::move(*std::exchange(drag_, std::nullopt));
+  if (drag.moved) show_answer(drag.shown);
+  resume(std::move(drag));
+}
+
+/// After a drag that changed nothing: what it interrupted goes on.
+void Session::resume(Drag drag) {
+  settling_ = std::move(drag.settling);
+  if (settling_) settling_->step = Settling::Step::FromRest;
+  if (drag.moved || drag.unsettled || settling_) ask(SolveOptions::Quality::Final, project());
 }
 
 /// A final answer: shown, or, on the way from a drag to its canonical answer, compared.

@@ -60,7 +60,7 @@ void Session::selection_changed() {
 }
 
 void Session::select(const PointSet& touched, SelectMode mode) {
-  if (!has_input()) return;
+  if (!has_input() || touched.size() != selection_.size()) return;  // of a shape that is gone
   // Points that are not finite are nowhere: nothing touches them but a caller's mistake.
   selection_ = intersected(combined(selection_, touched, mode), finite_);
   selection_changed();

@@ -91,7 +91,6 @@ void Session::adopt(std::shared_ptr<const Shape> shape, const std::string& path,
 }
 
 void Session::show(Opened opened) {
-  finish_waiting();
   close();
   input_ = std::move(opened.shape);
   input_path_ = std::move(opened.input_path);
@@ -110,6 +109,7 @@ void Session::show(Opened opened) {
 }
 
 void Session::close() {
+  finish_waiting();
   solver_->cancel();
   drag_.reset();
   settling_.reset();
