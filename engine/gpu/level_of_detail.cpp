@@ -5,25 +5,18 @@
 #include <cmath>
 
 #include "engine/geometry/bounds.h"
+#include "engine/geometry/random.h"
 
 namespace sinew::gpu {
 namespace {
 
 constexpr int levels = 10;  ///< the finest grid has 2^levels cells along the longest side
 
-/// Mixes all bits [Vigna, splitmix64].
-std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-  return x ^ x >> 31;
-}
-
 /// Bits of x, y, z in turn, the highest first: a prefix of the code is a cell of a coarser grid.
 std::uint64_t morton(const Eigen::Vector3d& unit) {
   std::uint64_t code = 0;
   std::uint32_t cell[3];
-  for (int c = 0; c < 3; ++c) cell[c] = static_cast<std::uint32_t>(unit[c] * ((1 << levels) - 1) + 0.5);
+  for (int c = 0; c < 3; ++c) cell[c] = static_cast<std::uint32_t>(unit[c] * ((1 << levels) - 1));
   for (int bit = levels - 1; bit >= 0; --bit)
     for (const std::uint32_t x : cell) code = code << 1 | (x >> bit & 1);
   return code;

@@ -1,7 +1,5 @@
 #include "engine/gpu/offscreen.h"
 
-#include <cstring>
-
 namespace sinew::gpu {
 
 Offscreen create_offscreen(const Device& device, VkExtent2D extent) {

@@ -1,7 +1,6 @@
 #include "engine/gpu/points.h"
 
 #include <algorithm>
-#include <cstring>
 
 #include "engine/geometry/check.h"
 #include "engine/geometry/error.h"
@@ -21,7 +20,7 @@ template <class T>
 Buffer filled(const Device& device, bool on_device, std::span<const T> values) {
   if (on_device) return upload(device, std::as_bytes(values));
   Buffer buffer = create_buffer(device, values.size_bytes(), Memory::Upload);
-  if (!values.empty()) std::memcpy(buffer.mapped, values.data(), values.size_bytes());
+  std::ranges::copy(values, static_cast<T*>(buffer.mapped));
   return buffer;
 }
 
@@ -29,7 +28,7 @@ Buffer filled(const Device& device, bool on_device, std::span<const T> values) {
 void fill(const Device& device, Buffer& buffer, std::span<const Eigen::Vector3f> values) {
   if (values.empty()) return;
   if (buffer.mapped != nullptr) {
-    std::memcpy(buffer.mapped, values.data(), values.size_bytes());
+    std::ranges::copy(values, static_cast<Eigen::Vector3f*>(buffer.mapped));
     return;
   }
   const Buffer staging = filled(device, false, values);
