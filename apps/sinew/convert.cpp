@@ -21,7 +21,9 @@ std::function<int()> declare_convert(Arguments& arguments) {
   arguments.flag("--force", options->out.force, "Replace OUT where it exists");
   return [options] {
     check_output(options->out);
-    write_output(options->out, *read_input(options->in, options->from));
+    const std::shared_ptr<const Shape> shape = read_input(options->in, options->from);
+    check_folder(options->out, options->in, *shape);
+    write_output(options->out, *shape);
     return Ok;
   };
 }

@@ -78,6 +78,7 @@ int run(const Options& options) {
   document::Report report;
   const std::shared_ptr<const Shape> input = read_input(options.input, options.from);
   report.read = seconds_since(begin);
+  check_folder(options.out, options.input, *input);
   const document::Evaluation evaluation = solve(input, project, !options.report.empty());
   const int status = status_of(evaluation, options.strict);
   if (status == Failed) return Failed;

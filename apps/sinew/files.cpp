@@ -69,6 +69,14 @@ void check_output(const Output& output) {
   check_output_text(output.path, output.force);
 }
 
+void check_folder(const Output& output, const std::string& input, const Shape& shape) {
+  if (!is_folder(output.path)) return;
+  if (shape.parts.empty())
+    throw UsageError(output.path + ": expected the name of a file for what is no scan set, found a folder for " +
+                     input);
+  for (const Part& part : shape.parts) check_output_text(output.path + part.path, output.force);
+}
+
 void check_output_text(const std::string& path, bool force) {
   const Writing writing;
   io::refuse_existing(path, force);

@@ -20,6 +20,8 @@ struct Output {
 
 /// Throws UsageError where no format can be written under this name, InputError where the file exists without `force`.
 void check_output(const Output& output);
+/// The same for a folder, once the scan set that goes there is known.
+void check_folder(const Output& output, const std::string& input, const Shape& shape);
 void check_output_text(const std::string& path, bool force);
 
 /// What the format could not hold goes to standard error.

@@ -141,14 +141,13 @@ void fill_scene(const gpu::Device& device, const Shape& input, const document::E
   out.scene.ground = gpu::ground_below(bounds, out.scene.up);
   out.scene.ground.show = show.contains("ground");
   if (evaluation != nullptr) {
-    for (std::size_t i = 0; i < evaluation->layers.size(); ++i) {
-      const document::LayerResult& layer = evaluation->layers[i];
+    for (const document::LayerResult& layer : evaluation->layers) {
       if (show.contains("fixed")) mark(colors, layer.constraints.fixed, gpu::shared::mark_fixed);
       if (show.contains("handles")) {
         for (const Handle& handle : layer.constraints.handles) mark(colors, handle.points, gpu::shared::mark_handle);
         add_handles(layer, shape, out.scene);
       }
-      if (show.contains("graph")) add_structure(evaluation->structures[i], *layer.pose, out.scene);
+      if (show.contains("graph")) add_structure(*layer.structure, *layer.pose, out.scene);
     }
   }
   const double size = size_of_points(view, shape.size());

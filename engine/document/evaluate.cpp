@@ -64,7 +64,6 @@ Evaluation evaluate(const std::shared_ptr<const Shape>& input, std::span<const L
     measure_handles(result.constraints, bent->positions, diagonal, report);
     if (options.measure) measure(deformer, result, *out.shape, bent->positions, report);
     out.bindings.push_back(deformer.binding());
-    out.structures.push_back(deformer.structure());
     out.reports.push_back(std::move(report));
     out.shape = bent;
   }

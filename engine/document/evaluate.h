@@ -15,7 +15,6 @@ struct Evaluation {
   std::shared_ptr<const Shape> shape;  ///< bent, with the input's attributes, faces and content
   std::vector<LayerResult> layers;
   std::vector<std::vector<Deformer::Table>> bindings;  ///< of each of `layers`, for a pose file
-  std::vector<Deformer::Structure> structures;         ///< of each of `layers`, for a picture
   std::vector<LayerReport> reports;                    ///< of each of `layers`
 };
 

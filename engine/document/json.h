@@ -109,6 +109,9 @@ void read_value(const JsonFile& file, const Json& json, T& value);
 template <class T>
 void read_value(const JsonFile& file, const Json& json, std::vector<T>& value);
 
+/// A text quoted as JSON.
+std::string json_text(const std::string& text);
+
 /// Writes indented JSON. Arrays of numbers stand on one line, arrays of objects one a line.
 class JsonWriter {
  public:

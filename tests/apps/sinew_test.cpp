@@ -62,6 +62,7 @@ TEST_F(Sinew, UsageMistakesAreOneLineAndStatus2) {
       {"deform", "-", "--edit", "-", "-o", out},
       {"deform", scan, "--edit", edit, "-o", "-", "--to", "ply", "--report", "-"},
       {"deform", scan, "--edit", edit, "-o", folder / "out.abc"},
+      {"convert", scan, folder / "bent/"},
       {"convert", scan, "-"},
       {"convert", scan, folder / "out"},
       {"convert", scan, folder / "out.conf"},
