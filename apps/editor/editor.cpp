@@ -69,13 +69,15 @@ Editor::~Editor() {
 
 void Editor::run() {
   while (!quit_) {
+    const bool busy = session_.job() || !to_open_.empty() || (session_.solving() && !session_.dragging());
+    window_.hold_play(busy);
     window_.wait(patience());
     take_events();
     take_changes();
     if (shape_moved_ == false && session_.dragging()) wait_for_shape();
     if (wants_frame()) draw();
     open_next();
-    if (window_.played_all() && !session_.job() && !session_.solving()) quit_ = true;
+    if (window_.played_all() && !busy) quit_ = true;
   }
 }
 
@@ -191,7 +193,8 @@ void Editor::wait_for_shape() {
 }
 
 bool Editor::wants_frame() const {
-  return frames_wanted_ > 0 || view_.glide.running() || !detail_.complete() || ui_.wants_frames || acquired_late_;
+  return frames_wanted_ > 0 || view_.glide.running() || !detail_.complete() || ui_.wants_frames || acquired_late_ ||
+         now() >= ui_.next_frame;
 }
 
 double Editor::patience() const {
@@ -199,8 +202,8 @@ double Editor::patience() const {
   if (!to_open_.empty() && !session_.job()) return 0;
   if (acquired_late_ || !detail_.complete()) return 0.02;
   if (ui_.wants_frames) return 0.033;
-  if (ImGui::GetIO().WantTextInput || !ui_.toasts.empty() || session_.job()) return 0.1;
-  return -1;
+  if (session_.job()) return 0.1;
+  return ui_.next_frame < 1e300 ? std::max(0.0, ui_.next_frame - now()) : -1;
 }
 
 void Editor::draw() {
@@ -217,11 +220,13 @@ void Editor::draw() {
   }
   if (frames_wanted_ > 0) --frames_wanted_;
   ui_.wants_frames = false;
+  ui_.next_frame = 1e300;
   interface_frame(swapchain_.extent);
   show_ui(ui_);
+  if (ImGui::GetIO().WantTextInput) ui_.next_frame = std::min(ui_.next_frame, now() + 0.4);  // the caret blinks
   window_.set_cursor(Gui::cursor());
   ImGui::Render();
-  const bool moving = shape_moved_ || mouse_.dragging() || !same_camera(view_.camera, drawn_camera_);
+  const bool moving = shape_moved_ || !same_camera(view_.camera, drawn_camera_);
   drawn_camera_ = view_.camera;
   shape_moved_ = false;
   draw_scene(moving);
@@ -248,7 +253,7 @@ void Editor::draw_scene(bool moving) {
   const double shown = now();
   while (!asked_.empty() && (asked_.front().first <= ticket || !session_.dragging())) {
     if (times_.is_open() && asked_.front().first <= ticket)
-      times_ << fmt::format("{:.6f} {}\n", shown - asked_.front().second, count);
+      times_ << fmt::format("{:.6f} {}", shown - asked_.front().second, count) << std::endl;
     asked_.pop_front();
   }
 }

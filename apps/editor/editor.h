@@ -45,6 +45,7 @@ class Editor {
   void choose_file_to_save();
   void choose_file_to_export();
   void save_screenshot(const std::string& path);
+  void draw_screenshot(const std::string& path);
   void quit();
 
   void take_events();
@@ -59,7 +60,6 @@ class Editor {
   double patience() const;
   void draw();
   void draw_scene(bool moving);
-  void measure();
 
   Window window_;
   std::unique_ptr<gpu::Device> device_;

@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "apps/editor/editor.h"
+#include "engine/geometry/error.h"
 #include "engine/gpu/offscreen.h"
 #include "engine/gpu/png.h"
 #include "engine/io/io.h"
@@ -58,7 +59,7 @@ void Editor::answer(Request request) {
 }
 
 void Editor::open_next() {
-  if (to_open_.empty() || session_.job()) return;
+  if (to_open_.empty() || session_.job() || !ui_.ask.text.empty()) return;
   const std::string path = to_open_.front();
   to_open_.pop_front();
   open(path);
@@ -113,6 +114,15 @@ void Editor::choose_file_to_export() {
 }
 
 void Editor::save_screenshot(const std::string& path) {
+  try {
+    draw_screenshot(path);
+    session_.notify(Severity::Info, "Saved " + fs::path(path).filename().string() + ".");
+  } catch (const InputError& error) {
+    session_.notify(Severity::Error, error.what());
+  }
+}
+
+void Editor::draw_screenshot(const std::string& path) {
   gpu::finish(*device_, frame_);
   gpu::begin_frame(*device_, frame_);
   stage_.update(frame_, session_, view_);
@@ -120,7 +130,6 @@ void Editor::save_screenshot(const std::string& path) {
   const gpu::Offscreen offscreen = gpu::create_offscreen(*device_, swapchain_.extent);
   const gpu::Scene scene = stage_.scene(session_, view_, theme(), stage_.points());
   gpu::write_png(path, gpu::render_picture(*device_, *renderer, offscreen, scene));
-  session_.notify(Severity::Info, path + " holds a picture of the scene.");
 }
 
 void Editor::quit() {

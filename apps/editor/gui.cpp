@@ -64,6 +64,7 @@ Gui::Gui(Window& window, const gpu::Device& device, VkRenderPass pass, std::uint
   io.IniFilename = nullptr;
   io.BackendFlags |= ImGuiBackendFlags_HasMouseCursors;
   io.ConfigWindowsMoveFromTitleBarOnly = true;
+  io.ConfigDragClickToInputText = true;
   set_keys(io);
   io.ClipboardUserData = this;
   io.GetClipboardTextFn = [](void* data) {

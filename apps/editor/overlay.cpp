@@ -74,7 +74,7 @@ void draw_label(Ui& ui, ImDrawList* list, ImVec2 at, const std::string& text) {
   at.x = std::clamp(at.x, px(8), std::max(px(8), ui.layout.column - size.x - 2 * pad - px(8)));
   at.y = std::clamp(at.y, ui.layout.top + px(8), ui.layout.bottom - height - px(8));
   at = {std::round(at.x), std::round(at.y)};
-  list->AddRectFilled(at, {at.x + size.x + 2 * pad, at.y + height}, packed(theme().popup, 0.92f), px(4));
+  list->AddRectFilled(at, {at.x + size.x + 2 * pad, at.y + height}, packed(theme().field, 0.92f), px(4));
   widget::text_at(list, ImGui::GetFont(), {at.x + pad, at.y + 0.5f * (height - size.y)}, theme().text, text);
 }
 
@@ -97,7 +97,8 @@ void draw_manipulation(Ui& ui, ImDrawList* list) {
                         0, scale());
   }
   const ImVec2 mouse = screen(view.mouse);
-  draw_label(ui, list, {mouse.x + px(16), mouse.y - px(32)}, view.manipulation->text());
+  draw_label(ui, list, {mouse.x + px(16), mouse.y - px(32)},
+             (view.manipulation->kind() == GizmoKind::Translate ? "Δ " : "") + view.manipulation->text());
 }
 
 void draw_stroke(Ui& ui, ImDrawList* list) {

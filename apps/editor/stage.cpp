@@ -112,7 +112,7 @@ gpu::Scene Stage::scene(Session& session, const View& view, const Theme& theme, 
     // Fewer points are drawn larger, so that the surface stays closed.
     const double share = static_cast<double>(std::max<std::size_t>(1, count)) /
                          static_cast<double>(std::max<std::size_t>(1, points_->count));
-    const double grown = std::min(6.0, size * std::sqrt(std::min(4.0, 1 / share)));
+    const double grown = std::min(4 * size, size * std::sqrt(1 / share));
     scene.clouds.push_back(
         {.points = &*points_, .size = count < points_->count ? std::max(size, grown) : size, .count = count});
     if (view.show_rest)

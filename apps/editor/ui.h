@@ -50,6 +50,7 @@ struct Ui {
   std::string edited_name;  ///< "layer/setting" of the number that is being dragged or typed, and what it is so far
   double edited_value = 0;
   bool wants_frames = false;  ///< something in the interface moves by itself
+  double next_frame = 1e300;  ///< when, by now(), the interface will change by itself
 
   bool dialog() const {
     return files.shown() || palette || keymap || about || settings || navigation_choice || !ask.text.empty();

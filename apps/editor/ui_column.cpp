@@ -147,6 +147,16 @@ void show_scene(Ui& ui) {
   for (std::size_t i = 0; i < session.project().layers.size(); ++i) show_layer(ui, i);
 }
 
+/// Fields are 20 high and 4 apart: rows of 24.
+void push_fields() {
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), std::floor(0.5f * (px(20) - ImGui::GetFontSize()))));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(8), px(4)));
+}
+
+void pop_fields() {
+  ImGui::PopStyleVar(2);
+}
+
 void show_setting(Ui& ui, std::size_t layer, const Setting& setting) {
   Session& session = ui.context.session;
   ImGui::PushID(setting.name.c_str());
@@ -173,30 +183,33 @@ void show_setting(Ui& ui, std::size_t layer, const Setting& setting) {
   ImGui::PopID();
 }
 
+void show_method(Ui& ui, std::size_t index) {
+  Session& session = ui.context.session;
+  if (session.methods().size() < 2) return;
+  std::vector<std::string> names;
+  std::size_t chosen = 0;
+  for (const Method& method : session.methods()) {
+    if (method.name == session.layer()->method) chosen = names.size();
+    names.push_back(method.name);
+  }
+  widget::label("Method", session.methods()[chosen].help);
+  if (widget::choice("##method", chosen, names)) session.set_method(index, names[chosen]);
+}
+
 void show_settings(Ui& ui) {
   Session& session = ui.context.session;
   const document::Layer* layer = session.layer();
   if (layer == nullptr) return;
   const std::size_t index = session.chosen_layer();
   widget::heading(upper(name_of(*layer, index)) + " · " + upper(layer->method));
-  if (session.methods().size() > 1) {
-    std::vector<std::string> names;
-    std::size_t chosen = 0;
-    for (const Method& method : session.methods()) {
-      if (method.name == layer->method) chosen = names.size();
-      names.push_back(method.name);
-    }
-    widget::label("Method", session.methods()[chosen].help);
-    if (widget::choice("##method", chosen, names)) {
-      session.set_method(index, names[chosen]);
-      return;
-    }
+  push_fields();
+  show_method(ui, index);
+  if (const document::Layer* now = session.layer(); now != nullptr) {
+    for (const Method& method : session.methods())
+      if (method.name == now->method)
+        for (const Setting& setting : method.settings) show_setting(ui, index, setting);
   }
-  const std::span<const Method> methods = session.methods();
-  const auto method =
-      std::find_if(methods.begin(), methods.end(), [&](const Method& m) { return m.name == layer->method; });
-  if (method == methods.end()) return;
-  for (const Setting& setting : method->settings) show_setting(ui, index, setting);
+  pop_fields();
 }
 
 /// A coloured dot, a name, a value; true when clicked.
@@ -269,6 +282,7 @@ void show_look(Ui& ui) {
   View& view = ui.context.view;
   const Shape& shape = *ui.context.session.input();
   widget::heading("SHOW");
+  push_fields();
   const std::vector<std::string> attributes = color_choices(shape);
   if (!attributes.empty()) {
     std::vector<std::string> names{"Plain"};
@@ -296,8 +310,10 @@ void show_look(Ui& ui) {
   };
   if (ui.context.session.layer() != nullptr)
     toggle("Structure", "Nodes and edges that the chosen layer's method bends", view.show_graph);
-  if (!ui.context.session.shown().empty()) toggle("Rest shape", "A ghost of the shape before any edit", view.show_rest);
+  if (ui.context.session.layer() != nullptr)
+    toggle("Rest shape", "A ghost of the shape before any edit", view.show_rest);
   toggle("Ground", "A grid below the shape", view.show_ground);
+  pop_fields();
 }
 
 /// The left edge of the column, to drag.

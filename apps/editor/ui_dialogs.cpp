@@ -67,7 +67,7 @@ void show_preferences(Ui& ui) {
 
 /// Asked at the first start: a card a preset, with what its buttons do.
 void show_navigation_choice(Ui& ui) {
-  if (!widget::begin_dialog(ui.navigation_choice, "navigation", 632, 248)) return;
+  if (!widget::begin_dialog(ui.navigation_choice, "navigation", 720, 204)) return;
   Preferences& preferences = ui.context.preferences;
   ImGui::PushFont(fonts().big);
   ImGui::TextUnformatted("How do you move around?");
@@ -76,7 +76,7 @@ void show_navigation_choice(Ui& ui) {
   ImGui::TextUnformatted("Take what your hand knows. The preferences change it at any time.");
   ImGui::PopStyleColor();
   ImGui::Dummy({0, px(8)});
-  const float gap = px(12), width = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) / 3), height = px(132);
+  const float gap = px(12), width = std::floor((ImGui::GetContentRegionAvail().x - 2 * gap) / 3), height = px(120);
   bool first = true;
   for (const NavigationPreset preset : {NavigationPreset::Blender, NavigationPreset::Maya, NavigationPreset::Scan}) {
     if (!first) ImGui::SameLine(0, gap);

@@ -131,9 +131,10 @@ void FileDialog::show(std::span<const std::string> recent) {
   ImGui::SetNextWindowPos({std::round(0.5f * (display.x - size.x)), std::round(0.5f * (display.y - size.y))});
   ImGui::SetNextWindowSize(size);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(16), px(12)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(6));
   const bool open = ImGui::BeginPopupModal(
       "files", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove);
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(2);
   if (!open) return;
   show_head();
   const float foot = px(28 + 12) + px(request_.save ? 32 : 0) + (request_.note.empty() && error_.empty() ? 0 : px(24));

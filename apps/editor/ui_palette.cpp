@@ -37,7 +37,6 @@ bool command_row(Ui& ui, const Command& command, bool chosen) {
   const std::string shortcut = command.shortcut;
   widget::text_at(list, ImGui::GetFont(), {at.x + width - px(10) - ImGui::CalcTextSize(shortcut.c_str()).x, y},
                   theme().quiet, shortcut);
-  if (ImGui::IsItemHovered()) widget::tooltip(command.help);
   return pressed;
 }
 
@@ -102,7 +101,7 @@ void show_block(const std::string& name, const std::vector<const Command*>& bloc
 }  // namespace
 
 void show_keymap(Ui& ui) {
-  if (!widget::begin_dialog(ui.keymap, "keymap", 920, 620)) return;
+  if (!widget::begin_dialog(ui.keymap, "keymap", 920, 544)) return;
   ImGui::PushFont(fonts().bold);
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::PopFont();

@@ -129,9 +129,14 @@ void show_job(Ui& ui) {
 
 namespace {
 
+/// Warnings and errors stay until they are closed.
+bool passes(const Notice& notice) {
+  return notice.severity != Severity::Warning && notice.severity != Severity::Error;
+}
+
 /// One message; false when it is to go.
 bool show_toast(const Toast& toast, float right, float& bottom, int number) {
-  const bool bad = toast.notice.severity == Severity::Warning || toast.notice.severity == Severity::Error;
+  const bool bad = !passes(toast.notice);
   const float width = std::min(px(420), right - px(72));
   const float text_width = width - px(12 + 24 + 28 + 4);
   const ImVec2 text = ImGui::CalcTextSize(toast.notice.text.c_str(), nullptr, false, text_width);
@@ -158,8 +163,14 @@ bool show_toast(const Toast& toast, float right, float& bottom, int number) {
 }
 
 void show_hints(Ui& ui) {
-  const std::vector<Notice> hints = ui.context.session.hints();
-  if (hints.empty() || ui.context.view.manipulation) return;
+  if (!ui.context.session.has_input() || ui.context.view.manipulation) return;
+  std::vector<Notice> hints = ui.context.session.hints();
+  if (ui.context.session.layer() == nullptr) {
+    const bool selected = !ui.context.session.selection().empty();
+    hints = {{Severity::Hint, selected ? "H makes the selected points a handle, K fixes them"
+                                       : "Select points to bend the shape by, or to keep where they are"}};
+  }
+  if (hints.empty()) return;
   const std::string& text = hints.front().text;
   const float room = ui.layout.column - px(2 * measure::edge + 2 * measure::tool_column + 48);
   const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
@@ -191,6 +202,9 @@ void show_toasts(Ui& ui) {
       ui.toasts.erase(ui.toasts.begin() + static_cast<std::ptrdiff_t>(i));
   }
   ImGui::PopStyleVar();
+  for (const Toast& toast : ui.toasts)
+    if (passes(toast.notice))
+      ui.next_frame = std::min(ui.next_frame, std::max(now() + 0.2, toast.since + toast_seconds));
   if (ui.toasts.empty() && !ui.context.session.job()) show_hints(ui);
 }
 

@@ -43,7 +43,7 @@ std::vector<Group> figures(const Ui& ui) {
   const Session& session = ui.context.session;
   std::vector<Group> out;
   if (!session.has_input()) return out;
-  if (session.shown().empty()) {
+  if (session.layer() == nullptr || session.shown().empty()) {
     const std::size_t faces = session.input()->faces.size();
     out.push_back({{{grouped(session.input()->size()), true}, {" points", false}}, 0});
     if (faces > 0) out.push_back({{{grouped(faces), true}, {" faces", false}}, 1});

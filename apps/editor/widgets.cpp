@@ -30,7 +30,10 @@ void edge_line(ImVec2 from, ImVec2 to) {
     if (from.x == 1) a.x -= width;
     b.x = a.x + width;
   }
-  ImGui::GetWindowDrawList()->AddRectFilled(a, b, packed(theme().line));
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->PushClipRectFullScreen();
+  list->AddRectFilled(a, b, packed(theme().line));
+  list->PopClipRect();
 }
 
 ImVec2 size_of(ImFont* font, const std::string& text) {
@@ -116,16 +119,23 @@ bool number(const char* id, double& value, const Number& described) {
   const double range = described.max - described.min;
   const double speed = described.integer ? std::max(0.05, std::min(range, 2 * std::abs(value) + 10) / 300)
                                          : std::min(range, 2 * std::abs(value) + 1e-3) / 300;
-  ImGui::PushStyleVar(ImGuiStyleVar_ButtonTextAlign, ImVec2(0, 0.5f));
+  // Its own text is centred: while it is not typed into, the number is drawn here, at the left.
+  const bool typed = ImGui::TempInputIsActive(ImGui::GetID(id));
+  if (!typed) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0, 0, 0, 0));
   ImGui::DragScalar(id, ImGuiDataType_Double, &value, static_cast<float>(speed), &described.min, &described.max, format,
                     flags);
-  ImGui::PopStyleVar();
+  if (!typed) ImGui::PopStyleColor();
   if (described.integer) value = std::round(value);
   field_edge();
   const bool done = ImGui::IsItemDeactivatedAfterEdit();
   if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
-  if (described.unit[0] != 0 && !ImGui::TempInputIsActive(ImGui::GetItemID()))
-    right_inside(described.unit, theme().faint);
+  if (typed) return done;
+  char text[64];
+  ImFormatString(text, sizeof text, format, value);
+  const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+  text_at(ImGui::GetWindowDrawList(), ImGui::GetFont(), {min.x + px(8), 0.5f * (min.y + max.y - ImGui::GetFontSize())},
+          theme().text, text);
+  if (described.unit[0] != 0) right_inside(described.unit, theme().faint);
   return done;
 }
 
@@ -252,10 +262,11 @@ bool begin_dialog(bool& shown, const char* id, float width, float height) {
       {std::round(0.5f * (display.x - size.x)), std::round(std::max(px(32), 0.4f * (display.y - size.y)))});
   ImGui::SetNextWindowSize(size);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(12), px(12)));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(6));
   const bool open = ImGui::BeginPopupModal(
       id, nullptr,
       ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav);
-  ImGui::PopStyleVar();
+  ImGui::PopStyleVar(2);
   if (open && ImGui::IsMouseClicked(0) &&
       !ImGui::IsWindowHovered(ImGuiHoveredFlags_RootAndChildWindows | ImGuiHoveredFlags_AllowWhenBlockedByActiveItem))
     shown = false;

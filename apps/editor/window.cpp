@@ -66,7 +66,7 @@ Window::Window(const WindowOptions& options) {
                         GLFW_HAND_CURSOR,  GLFW_HRESIZE_CURSOR, GLFW_VRESIZE_CURSOR};
   for (std::size_t i = 0; i < std::size(shapes); ++i) cursors_[i] = glfwCreateStandardCursor(shapes[i]);
   listen();
-  play_start_ = now();
+  play_start_ = played_ = now();
 }
 
 Window::~Window() {
@@ -127,6 +127,9 @@ void Window::add(InputEvent event) {
 }
 
 void Window::play() {
+  if (hold_play_) play_start_ += now() - played_;
+  played_ = now();
+  if (hold_play_) return;
   while (!to_play_.empty() && play_start_ + to_play_.front().time <= now()) {
     InputEvent event = std::move(to_play_.front());
     to_play_.pop_front();
@@ -138,7 +141,7 @@ void Window::play() {
 }
 
 void Window::wait(double seconds) {
-  if (playing_ && !to_play_.empty()) {
+  if (playing_ && !to_play_.empty() && !hold_play_) {
     const double due = std::max(0.0, play_start_ + to_play_.front().time - now());
     seconds = seconds < 0 ? due : std::min(seconds, due);
   }

@@ -40,6 +40,8 @@ class Window {
 
   /// Events since the last call, oldest first. The caller takes from the front what it has dealt with.
   std::deque<InputEvent>& events() { return events_; }
+  /// While true, recorded events wait and their clock stands: who recorded them had waited, too.
+  void hold_play(bool hold) { hold_play_ = hold; }
   bool played_all() const { return playing_ && to_play_.empty() && events_.empty(); }
 
   VkExtent2D size() const;       ///< of the picture in pixels; 0 x 0 while minimised
@@ -59,8 +61,8 @@ class Window {
   void* cursors_[6]{};
   CursorShape cursor_ = CursorShape::Arrow;
   std::deque<InputEvent> events_, to_play_;
-  bool playing_ = false;
-  double play_start_ = 0, record_start_ = -1;
+  bool playing_ = false, hold_play_ = false;
+  double play_start_ = 0, played_ = 0, record_start_ = -1;
   std::ofstream record_;
   std::string title_;
 };
