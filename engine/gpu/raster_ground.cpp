@@ -45,8 +45,9 @@ RasterGround::RasterGround(const Scene& scene, VkExtent2D extent, int scale)
 
 void RasterGround::row(int y, GroundRow& out) const {
   const int blocks = (width_ + lanes - 1) / lanes;
-  out.opacity.assign(static_cast<std::size_t>(blocks * lanes), 0.0f);
-  out.depth.assign(static_cast<std::size_t>(blocks * lanes), 0.0f);
+  const std::size_t padded = static_cast<std::size_t>(blocks) * lanes;
+  out.opacity.assign(padded, 0.0f);
+  out.depth.assign(padded, 0.0f);
   if (!show_) return;
   const Eigen::Matrix3f T = to_plane_;
   const Eigen::Vector3f start = T.col(1) * (static_cast<float>(y) + 0.5f) + T.col(2);

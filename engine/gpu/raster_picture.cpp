@@ -35,7 +35,7 @@ struct Raster {
   std::vector<RasterSpan>& covered;  ///< of each row: where something solid may be
   std::uint32_t* colors;             ///< of the raster's size
 
-  std::size_t stride() const { return static_cast<std::size_t>(solid.width + 2 * pad); }
+  std::size_t stride() const { return static_cast<std::size_t>(solid.width) + 2 * pad; }
   float* depth_row(int y) const { return depths.data() + static_cast<std::size_t>(y + pad) * stride() + pad; }
   std::uint32_t* color_row(int y) const {
     return colors + static_cast<std::size_t>(y) * static_cast<std::size_t>(solid.width);
@@ -70,7 +70,7 @@ void pad_depths(const Raster& raster) {
 void edl_row(const Raster& raster, int y, RasterSpan span, std::vector<float>& shades) {
   const shared::ComposeConstants& c = raster.constants;
   const int r = std::clamp(static_cast<int>(c.edl_radius), 1, most_edl_radius);
-  const int d = std::clamp(static_cast<int>(0.7f * c.edl_radius + 0.5f), 1, most_edl_radius);
+  const int d = std::clamp(static_cast<int>(std::lround(0.7f * c.edl_radius)), 1, most_edl_radius);
   const float *here = raster.depth_row(y), *up = raster.depth_row(y - r), *down = raster.depth_row(y + r);
   const float *high = raster.depth_row(y - d), *low = raster.depth_row(y + d);
   const float linear = c.linear_depth, strength = c.edl_strength;

@@ -114,7 +114,8 @@ Shaded shade(std::span<const RasterItem> items, const RasterImage& image, std::s
   const std::size_t element = id - items[k].first_id;
   if (items[k].triangles == nullptr) return shade_point(items[k], element);
   const auto width = static_cast<std::size_t>(image.width);
-  const Eigen::Vector2f at(static_cast<float>(pixel % width) + 0.5f, static_cast<float>(pixel / width) + 0.5f);
+  const std::size_t column = pixel % width, row = pixel / width;
+  const Eigen::Vector2f at(static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f);
   const Vector3f ndc(2 * at.x() / static_cast<float>(image.width) - 1,
                      2 * at.y() / static_cast<float>(image.height) - 1, 1);
   return shade_face(items[k], element, at, ndc);
