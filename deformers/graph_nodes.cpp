@@ -2,13 +2,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <unordered_map>
 
-#include "deformers/random.h"
 #include "engine/geometry/bounds.h"
 #include "engine/geometry/nearest.h"
+#include "engine/geometry/random.h"
 #include "engine/geometry/topology.h"
 
 namespace sinew {
@@ -58,6 +59,25 @@ std::vector<Vec3> candidates(const Shape& shape, std::size_t count, std::uint64_
   std::sort(order.begin(), order.end());
   std::vector<Vec3> out;
   for (std::size_t i = 0; i < std::min(order.size(), wanted); ++i) out.push_back(unit.apply(points[order[i].second]));
+  return out;
+}
+
+/// Without points that stand apart: those much farther from their neighbours than these are from theirs [after Breunig
+/// et al., "LOF: identifying density-based local outliers", 2000]. A scan's outliers would otherwise each take a node.
+std::vector<Vec3> without_outliers(const std::vector<Vec3>& points) {
+  constexpr std::size_t k = 6;  // five neighbours and the point itself
+  constexpr double apart = 4;
+  if (points.size() < 100 * k) return points;
+  std::vector<std::uint32_t> near(points.size() * k);
+  std::vector<double> distance(points.size() * k);
+  NearestTree(points).nearest(points, static_cast<int>(k), near, distance);
+  std::vector<Vec3> out;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::array<double, k - 1> theirs{};
+    for (std::size_t n = 1; n < k; ++n) theirs[n - 1] = distance[near[i * k + n] * k + k - 1];
+    std::nth_element(theirs.begin(), theirs.begin() + 2, theirs.end());
+    if (distance[i * k + k - 1] <= apart * theirs[2] || theirs[2] == 0) out.push_back(points[i]);
+  }
   return out;
 }
 
@@ -121,7 +141,8 @@ void thin(std::vector<Vec3>& nodes, std::size_t count) {
 
 std::vector<Vec3> sample_nodes(const Shape& shape, std::size_t count, std::uint64_t seed) {
   const Normalization unit = normalization_of(bounds_of(shape.positions));
-  const std::vector<Vec3> points = candidates(shape, count, seed, unit);
+  std::vector<Vec3> points = candidates(shape, count, seed, unit);
+  if (shape.faces.empty()) points = without_outliers(points);
   if (points.empty() || count == 0) return {};
 
   // A surface of area about 1/2 under a diagonal of 1 takes this radius; from there to one that keeps enough.

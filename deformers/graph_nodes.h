@@ -13,8 +13,9 @@ namespace sinew {
 
 /// Uniform sampling: of points dense on the surface, a random one is kept and all others within a radius of it are
 /// removed, repeatedly; the radius is found by bisection, so that exactly `count` remain (fewer only where there are
-/// fewer different points). The dense points are the shape's own, or random points on its faces where it has faces but
-/// few points. `seed` chooses the random order; the result depends on nothing else but the shape.
+/// fewer different points). The dense points are the shape's own (in a cloud, but for outliers), or random points on
+/// its faces where it has faces but few points. `seed` chooses the random order; the result depends on nothing else but
+/// the shape.
 std::vector<Vec3> sample_nodes(const Shape& shape, std::size_t count, std::uint64_t seed);
 
 /// Quadric simplification that avoids long, thin triangles; the vertices that remain. For shapes with faces. `note`

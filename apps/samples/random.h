@@ -1,17 +1,11 @@
 #pragma once
-/// Random numbers without a state: a number is a function of its keys, so that neither the order of the calls nor the
-/// number of threads changes it. The mixing is that of splitmix64 [Steele, Lea, Flood 2014].
+/// Random: numbers that are functions of up to three keys (engine/geometry/random.h), uniform and normal.
 
 #include <cstdint>
 
-namespace sinew::samples {
+#include "engine/geometry/random.h"
 
-inline std::uint64_t mixed(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
+namespace sinew::samples {
 
 /// The numbers that belong to up to three keys.
 class Random {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/geometry/check.h"
+#include "engine/geometry/type.h"
 
 namespace sinew {
 
@@ -25,10 +26,6 @@ enum class Kind {
   SphericalHarmonics,  ///< turned by the rotation nearest to M
 };
 
-enum class Type { Int8, UInt8, Int16, UInt16, Int32, UInt32, Int64, UInt64, Float32, Float64 };
-
-std::size_t size_of(Type type);  ///< bytes of one value
-const char* name_of(Type type);  ///< "int8" ... "float64"
 const char* name_of(Kind kind);  ///< "scalar", "color", "id", "point", "vector", "normal", "quaternion", ...
 
 /// Values of one name, `count` rows of `components`, in the type the file has, bit for bit.

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "deformers/random.h"
 #include "engine/geometry/nearest.h"
+#include "engine/geometry/random.h"
 
 namespace sinew {
 
@@ -61,6 +61,20 @@ TEST(GraphNodes, ExactlyAsManyAsWantedAndEvenlySpread) {
     const auto [least, reach] = gaps(shape, nodes);
     EXPECT_LT(reach, 1.6 * least) << count;  // a sampling that is dense here and sparse there would fail this
   }
+}
+
+TEST(GraphNodes, OutliersOfAScanTakeNone) {
+  Shape shape = sphere_scan(20000);
+  const std::size_t surface = shape.size();
+  for (std::uint64_t i = 0; i < 100; ++i)
+    shape.positions.push_back(3 * Vec3(random_unit(9, 3 * i), random_unit(9, 3 * i + 1), random_unit(9, 3 * i + 2)) +
+                              Vec3(1, 1, 1));
+  for (const Vec3& g : sample_nodes(shape, 200, 0)) EXPECT_NEAR(g.norm(), 1, 1e-9);
+  // The sparse half of the sphere is not an outlier.
+  shape.positions.resize(surface);
+  std::size_t sparse = 0;
+  for (const Vec3& g : sample_nodes(shape, 200, 0)) sparse += g.z() < -0.5;
+  EXPECT_GT(sparse, 40u);
 }
 
 TEST(GraphNodes, DependOnTheSeedAndOnNothingElse) {

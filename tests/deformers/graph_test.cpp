@@ -7,10 +7,10 @@
 #include <numeric>
 
 #include "deformers/graph_solver.h"
-#include "deformers/random.h"
 #include "engine/geometry/bounds.h"
 #include "engine/geometry/error.h"
 #include "engine/geometry/parallel.h"
+#include "engine/geometry/random.h"
 #include "engine/geometry/skin.h"
 
 namespace sinew {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "deformers/random.h"
+#include "engine/geometry/random.h"
 
 namespace sinew {
 
