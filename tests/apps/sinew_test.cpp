@@ -247,6 +247,31 @@ TEST_F(Sinew, AScanSetIsBentAsOneAndWrittenMergedOrAsOneFileAScan) {
   EXPECT_EQ(run_sinew({"deform", folder / "set.conf", "--edit", edit, "-o", folder / "bent/"}).status, 1);
 }
 
+TEST_F(Sinew, StrictTellsWhatDidNotConverge) {
+  // Fifty times the sheet's length away and turned around: more than the solver's iterations reach.
+  std::string far = turn_edit();
+  far.replace(far.find("-50"), 3, "170");
+  far.replace(far.find("} } ] } ] }"), 1, "}, \"move\": [200, 0, 0] ");
+  save(edit, far);
+  const std::vector<std::string> loose = {"deform", scan, "--edit", edit, "-o", out, "--force"};
+  std::vector<std::string> strict = loose;
+  strict.push_back("--strict");
+  EXPECT_EQ(run_sinew(loose).status, 0);
+  const Outcome outcome = run_sinew(strict);
+  EXPECT_EQ(outcome.status, 4);
+  EXPECT_TRUE(outcome.err.starts_with("sinew: layer 1: expected a solve that converges, found ")) << outcome.err;
+  save(edit, turn_edit());
+  EXPECT_EQ(run_sinew(strict).status, 0);
+}
+
+TEST_F(Sinew, AFailedSolveIsStatus1AndWritesNothing) {
+  const Outcome outcome = run_sinew({"deform", scan, "--edit", edit, "-o", out, "--set", "rotation=0", "--set",
+                                     "regularization=0", "--set", "constraint=0"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_TRUE(outcome.err.starts_with("sinew: layer 1: ")) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(out));
+}
+
 TEST_F(Sinew, SettingsFromTheCommandLine) {
   ASSERT_EQ(run_sinew({"deform", scan, "--edit", edit, "-o", out}).status, 0);
   ASSERT_EQ(run_sinew({"deform", scan, "--edit", edit, "-o", folder / "b.ply", "--set", "nodes=30"}).status, 0);
