@@ -62,6 +62,7 @@ void GraphSolver::prepare(const std::vector<bool>& fixed, std::vector<GraphHandl
 void GraphSolver::set_x(GraphState x) {
   CHECK(x.R.size() == nodes_.size() && x.t.size() == nodes_.size(), x.R.size(), nodes_.size());
   x_ = std::move(x);
+  rigid_.usable = affine_.usable = false;  // factors of another x steer the way to the minimum, and its last digits
 }
 
 /// Nodes that do not move go to rest. Not when x is set: that comes before the constraints it belongs to are known.

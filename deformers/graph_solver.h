@@ -25,7 +25,7 @@ class GraphSolver {
                     const std::function<bool()>& on_iteration);
 
   const GraphState& x() const { return x_; }
-  /// Where the next solve starts from; nodes that do not move then go to rest.
+  /// Where the next solve starts from, with nothing kept from earlier ones; nodes that do not move then go to rest.
   void set_x(GraphState x);
 
  private:

@@ -18,11 +18,6 @@ class Repeatable final : public Deformer {
 
   SolveReport solve(const Constraints& constraints, const SolveOptions& options) override {
     if (options.quality == SolveOptions::Quality::Final) {
-      // What a method keeps between solves of the same points (factors of an earlier x) steers the way to the minimum,
-      // and its last digits. Without constraints there is nothing to keep.
-      SolveOptions nothing;
-      nothing.quality = SolveOptions::Quality::Interactive;
-      inner_->solve({}, nothing);
       inner_->reset();
       if (!start_.empty()) inner_->start_from(start_);
     }

@@ -75,7 +75,9 @@ class Deformer {
   /// The maps of the present x, in the shape's coordinates.
   virtual const Pose& pose() const = 0;
 
-  /// x back to rest (the identity everywhere), or to an earlier pose of this deformer, to start from there.
+  /// x back to rest (the identity everywhere), or to an earlier pose of this deformer, to start from there. What
+  /// earlier solves left behind that could steer the next one (factors of another x) is forgotten: the answer then
+  /// depends on the pose, the constraints and the options alone, to the last bit.
   virtual void reset() = 0;
   virtual void start_from(const Pose& pose) = 0;
 

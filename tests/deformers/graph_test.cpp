@@ -311,6 +311,28 @@ TEST(Graph, CanBeStoppedAndStartedFromAPose) {
   EXPECT_LT(again.iterations, done.iterations + stopped.iterations + 8);
 }
 
+TEST(Graph, AfterAResetTheAnswerDependsOnTheConstraintsAlone) {
+  const Shape shape = sheet();
+  const Constraints c = lift(shape);
+  const auto fresh = deformer_of(shape, with_given()), used = deformer_of(shape, with_given());
+  fresh->solve(c, {});
+  SolveOptions quick;
+  quick.quality = SolveOptions::Quality::Interactive;
+  for (int step = 1; step < 5; ++step) {
+    Constraints other = c;
+    for (Vec3& q : other.handles[0].targets) q += 0.05 * step * Vec3(0, 1, 1);
+    used->solve(other, step % 2 == 0 ? quick : SolveOptions{});
+  }
+  used->reset();
+  used->solve(c, {});
+  EXPECT_EQ(bent(*used, shape), bent(*fresh, shape));
+  // A start given before the first solve is taken; here it is the answer itself.
+  const auto started = deformer_of(shape, with_given());
+  started->start_from(fresh->pose());
+  EXPECT_LT(started->solve(c, {}).iterations, fresh->solve(c, {}).iterations + 6);
+  EXPECT_LT(largest_distance(bent(*started, shape), bent(*fresh, shape)), 1e-5);
+}
+
 TEST(Graph, PointsThatAreNotFiniteStayAndHoldNothing) {
   Shape shape = sheet();
   shape.positions[7] = Vec3(std::nan(""), 0, 0);
