@@ -6,13 +6,14 @@
 #include <filesystem>
 
 #include "deformers/methods.h"
+#include "shaders/shared.h"
 
 namespace sinew::editor {
 
 namespace {
 
-/// Longest wait for the shape of a mouse event before the picture is drawn without it.
-constexpr double shape_patience = 0.012;
+/// Bounds of the wait for the shape of a mouse event before the picture is drawn without it, seconds.
+constexpr double least_patience = 0.012, most_patience = 0.06;
 
 gpu::DeviceOptions device_options(const Window& window, bool validation) {
   gpu::DeviceOptions options = window.device_options();
@@ -23,6 +24,11 @@ gpu::DeviceOptions device_options(const Window& window, bool validation) {
 float used_scale(const Preferences& preferences, const Window& window) {
   const double scale = preferences.scale > 0 ? preferences.scale : window.content_scale();
   return static_cast<float>(std::clamp(scale, 0.75, 4.0));
+}
+
+std::size_t count_fixed(const std::vector<std::uint8_t>& marks) {
+  return static_cast<std::size_t>(std::count_if(
+      marks.begin(), marks.end(), [](std::uint8_t bits) { return (bits & gpu::shared::mark_fixed) != 0; }));
 }
 
 bool same_camera(const gpu::Camera& a, const gpu::Camera& b) {
@@ -158,6 +164,7 @@ void Editor::take_changes() {
   }
   const Changed changed = session_.poll();
   stage_.note(changed);
+  if (changed.marks || changed.input) ui_.fixed_points = count_fixed(session_.point_marks());
   if (changed.input) show_new_input();
   if (changed.any()) frames_wanted_ = std::max(frames_wanted_, 1);
   shape_moved_ |= changed.pose || changed.input;
@@ -180,14 +187,16 @@ void Editor::show_new_input() {
   add_recent(preferences_, std::filesystem::absolute(session_.input_path()).string());
 }
 
-/// A picture takes longer than an interactive solve: the shape of the newest mouse event is worth a short wait.
+/// A picture without the shape of the newest mouse event would hold up the one with it by as long as it takes to draw:
+/// so long a wait is worth it.
 void Editor::wait_for_shape() {
-  const double end = now() + shape_patience;
+  const double end = now() + std::clamp(picture_seconds_, least_patience, most_patience);
   while (!asked_.empty() && session_.shown_ticket() < asked_.back().first && now() < end) {
     window_.wait(std::max(1e-4, end - now()));
     const Changed changed = session_.poll();
     stage_.note(changed);
     shape_moved_ |= changed.pose;
+    if (changed.marks) ui_.fixed_points = count_fixed(session_.point_marks());
     if (changed.any()) frames_wanted_ = std::max(frames_wanted_, 1);
   }
 }
@@ -249,8 +258,9 @@ void Editor::draw_scene(bool moving) {
   gpu::submit(*device_, frame_, gpu::acquired(swapchain_), gpu::drawn(swapchain_));
   gpu::present(*device_, swapchain_);
   gpu::finish(*device_, frame_);
-  detail_.end_frame(now() - begin);
   const double shown = now();
+  picture_seconds_ = shown - begin;
+  detail_.end_frame(picture_seconds_);
   while (!asked_.empty() && (asked_.front().first <= ticket || !session_.dragging())) {
     if (times_.is_open() && asked_.front().first <= ticket)
       times_ << fmt::format("{:.6f} {}", shown - asked_.front().second, count) << std::endl;

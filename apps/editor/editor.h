@@ -86,6 +86,7 @@ class Editor {
   bool acquired_late_ = false;
   gpu::Camera drawn_camera_;
   double last_step_ = 0;
+  double picture_seconds_ = 0;  ///< of the last picture, drawn and shown
 
   std::ofstream times_;
   std::deque<std::pair<std::uint64_t, double>> asked_;  ///< tickets of a drag, and the times of their mouse events

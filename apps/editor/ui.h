@@ -36,6 +36,7 @@ struct Ui {
   Mouse& mouse;
   std::string device;  ///< "llvmpipe, CPU skinning"
   std::string sample;  ///< path of the sample scan; empty: none
+  std::size_t fixed_points = 0;
   Layout layout;
   float column_width = 272;  ///< at scale 1
   bool column_open = true;

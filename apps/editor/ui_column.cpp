@@ -232,8 +232,7 @@ void show_marks(Ui& ui) {
   Session& session = ui.context.session;
   widget::heading("MARKS");
   const std::vector<HandleView> handles = session.handles();
-  std::size_t fixed = 0;
-  for (const std::uint8_t bits : session.point_marks()) fixed += (bits & 2) != 0 ? 1 : 0;
+  const std::size_t fixed = ui.fixed_points;
   const std::string count = handles.empty() ? "none" : std::to_string(handles.size());
   if (mark_row("handles", theme().handle, "Handles", count, false, "Click to select all points of the handles")) {
     session.select_none();

@@ -29,7 +29,7 @@ void show_about(Ui& ui) {
 }
 
 void show_preferences(Ui& ui) {
-  if (!widget::begin_dialog(ui.settings, "preferences", 400, 228)) return;
+  if (!widget::begin_dialog(ui.settings, "preferences", 400, 200)) return;
   Preferences& chosen = ui.context.preferences;
   ImGui::PushFont(fonts().bold);
   ImGui::TextUnformatted("Preferences");
