@@ -64,7 +64,7 @@ gpu::Camera camera_of(const View& view, const Bounds& bounds, const Vec3& origin
   const gpu::UpAxis up = view.z_up ? gpu::UpAxis::Z : gpu::UpAxis::Y;
   camera.up = gpu::up_vector(up);
   if (gpu::look_from(camera, view.name, up)) {
-    gpu::frame_bounds(camera, bounds, static_cast<double>(view.width) / view.height, 1.1);
+    gpu::frame_bounds(camera, bounds, static_cast<double>(view.width) / view.height, 0.9);
     return camera;
   }
   if (!parse_eye(view.name, origin, camera))
