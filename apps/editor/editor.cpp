@@ -1,6 +1,7 @@
 #include "apps/editor/editor.h"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -149,7 +150,11 @@ void Editor::deliver(const InputEvent& event) {
 
 void Editor::press_key(const InputEvent& event) {
   if (event.action == 0 || ImGui::GetIO().WantTextInput) return;
-  if (ui_.dialog() || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) return;
+  if (ui_.dialog()) return;
+  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup)) {
+    if (event.code == key::escape) ImGui::ClosePopupToLevel(0, false);
+    return;
+  }
   if (mouse_.press(event.code, event.modifiers)) return;
   if (const Command* command = command_for(event.code, event.modifiers, context_)) run_command(*command, context_);
 }

@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# editor_test.sh PROGRAMS story|large
+# editor_test.sh PROGRAMS story|large|storm
 #
 # Uses the window as a person would: real mouse and keys on a screen of its own, with the validation layer on.
 #   story  opens the sample scan, marks head and feet, drags, undoes, redoes, saves, exports; the command line must come
 #          to the same points; the recorded events, played again, too; a broken file is a sentence and changes nothing
 #   large  opens, marks and drags 1,000,000 points
+#   storm  500 sizes of the window, then hidden and shown again: no message, no more memory than after the first 100
 # Prints how long the pictures of a drag took after their mouse events. SHOTS=FOLDER keeps screenshots.
 # Exit status 77: skipped, with the reason.
 set -euo pipefail
@@ -213,6 +214,38 @@ large() {
   latency "$work/times" "1,000,000 points"
   press ctrl+z ctrl+z ctrl+z
   until_done 20 title '^large.ply - Sinew$'
+  leave
+}
+
+resize() {
+  for ((i = 0; i < $2; ++i)); do
+    xdotool windowsize "$1" $((500 + (i * 389) % 780)) $((330 + (i * 211) % 390))
+    sleep 0.02
+  done
+  sleep 1
+}
+memory() { sed -n 's/^VmRSS:[[:space:]]*\([0-9]*\) kB/\1/p' "/proc/$editor_pid/status"; }
+
+storm() {
+  "$programs/sinew-samples" "$work" scan 2>/dev/null
+  start_editor "$work/scan.ply"
+  until_done 60 title '^scan.ply - Sinew$'
+  local window first last
+  window=$(title '^scan.ply - Sinew$' | head -n 1)
+  resize "$window" 100
+  first=$(memory)
+  resize "$window" 400
+  last=$(memory)
+  echo "resident after 100 sizes ${first} kB, after 500 ${last} kB"
+  [ "$last" -lt $((first + first / 5)) ] || fail "memory grew"
+  xdotool windowunmap "$window"
+  sleep 1
+  xdotool windowmap "$window"
+  xdotool windowsize "$window" 1280 720
+  sleep 1
+  shot after
+  xdotool mousemove 600 300
+  press Return
   leave
 }
 
