@@ -63,6 +63,9 @@ TEST(SinewInterrupt, InTheMiddleOfAFileLeavesNothing) {
 }
 
 TEST(SinewApply, MemoryDoesNotGrowWithTheFile) {
+#ifdef SINEW_SANITIZED
+  GTEST_SKIP() << "a sanitizer keeps memory that the program has given back";
+#endif
   const Solved solved;
   save_sparse_ply(solved.folder / "small.ply", 500'000);
   save_sparse_ply(solved.folder / "big.ply", 4'000'000);
@@ -75,9 +78,7 @@ TEST(SinewApply, MemoryDoesNotGrowWithTheFile) {
   };
   const long small = peak("small.ply"), big = peak("big.ply");
   EXPECT_LT(big, small + 20 * 1024);
-#ifndef SINEW_SANITIZED
   EXPECT_LT(big, 512 * 1024);
-#endif
 }
 
 }  // namespace sinew
