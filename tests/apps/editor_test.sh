@@ -15,14 +15,14 @@ for tool in Xvfb xdotool; do
 done
 
 work=$(mktemp -d)
-screen_pid= editor_pid=
+screen_pid='' editor_pid=''
 finish() {
   [ -z "$editor_pid" ] || kill "$editor_pid" 2>/dev/null || true
   [ -z "$screen_pid" ] || kill "$screen_pid" 2>/dev/null || true
   rm -rf "$work"
 }
 trap finish EXIT
-export HOME=$work/home XDG_CONFIG_HOME=$work/config SINEW_VALIDATION=1
+export HOME=$work/home XDG_CONFIG_HOME=$work/config SINEW_VALIDATION=${SINEW_VALIDATION:-1}
 mkdir -p "$HOME"
 
 fail() {
@@ -48,6 +48,7 @@ start_screen() {
   until_done 20 test -s "$work/display"
   DISPLAY=:$(cat "$work/display")
   export DISPLAY
+  until_done 20 xdotool getmouselocation
 }
 
 start_editor() {
