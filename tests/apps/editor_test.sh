@@ -41,9 +41,10 @@ until_done() {
   done
 }
 
+# -noreset: else the server starts anew whenever its last client leaves, and is away for a moment.
 start_screen() {
   exec 5>"$work/display"
-  Xvfb -displayfd 5 -screen 0 1280x720x24 >/dev/null 2>&1 &
+  Xvfb -displayfd 5 -screen 0 1280x720x24 -noreset >/dev/null 2>&1 &
   screen_pid=$!
   until_done 20 test -s "$work/display"
   DISPLAY=:$(cat "$work/display")
