@@ -24,7 +24,8 @@ class Display {
     server_ = fork();
     if (server_ == 0) {
       const std::string out = std::to_string(numbers[1]);
-      execlp("Xvfb", "Xvfb", "-displayfd", out.c_str(), "-screen", "0", "1400x900x24", "-nolisten", "tcp", nullptr);
+      execlp("Xvfb", "Xvfb", "-displayfd", out.c_str(), "-screen", "0", "1400x900x24", "-noreset", "-nolisten", "tcp",
+             nullptr);
       _exit(127);
     }
     close(numbers[1]);
