@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <random>
 
+#include "tests/deformers/dense.h"
+
 namespace sinew {
 
 namespace {
@@ -85,19 +87,6 @@ std::vector<Vec3> targets_of(Fixture& s) {
   for (int l = 0; l < 3; ++l) targets.push_back(s.vector());
   s.energy.set_targets(targets);
   return targets;
-}
-
-Eigen::MatrixXd dense(const BlockMatrix& H) {
-  const Eigen::Index b = H.block;
-  Eigen::MatrixXd D(H.size() * b, H.size() * b);
-  D.setZero();
-  for (Index j = 0; j < H.size(); ++j)
-    for (Index e = H.offsets[j]; e < H.offsets[j + 1]; ++e) {
-      const Eigen::Map<const Eigen::MatrixXd> M(H.at(e), b, b);
-      D.block(H.rows[e] * b, j * b, b, b) = M;
-      D.block(j * b, H.rows[e] * b, b, b) = M.transpose();
-    }
-  return D;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "deformers/small_gemm.h"
+#include "tests/deformers/dense.h"
 
 namespace sinew {
 
@@ -29,18 +30,6 @@ BlockMatrix random_spd(int block, Index n, double degree, unsigned seed) {
     D.diagonal().array() += 4 * block * (degree + 2);
   }
   return H;
-}
-
-Eigen::MatrixXd dense(const BlockMatrix& H) {
-  const Eigen::Index b = H.block;
-  Eigen::MatrixXd D = Eigen::MatrixXd::Zero(H.size() * b, H.size() * b);
-  for (Index j = 0; j < H.size(); ++j)
-    for (Index e = H.offsets[j]; e < H.offsets[j + 1]; ++e) {
-      const Eigen::Map<const Eigen::MatrixXd> M(H.at(e), b, b);
-      D.block(H.rows[e] * b, j * b, b, b) = M;
-      D.block(j * b, H.rows[e] * b, b, b) = M.transpose();
-    }
-  return D;
 }
 
 double solve_error(const BlockMatrix& H) {

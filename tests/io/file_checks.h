@@ -51,6 +51,17 @@ inline std::vector<std::string> lost(WriteFunction write, const Shape& shape) {
   return report.lost;
 }
 
+/// The sentence with which f refuses; "done" where it does not.
+template <class F>
+std::string sentence_of(F&& f) {
+  try {
+    f();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "done";
+}
+
 /// The sentence with which the reader refuses the text; "read" where it does not.
 inline std::string refusal(ReadFunction read, std::string_view text, const std::string& path = "test") {
   try {

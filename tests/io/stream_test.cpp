@@ -49,16 +49,6 @@ std::string whole(const std::string& text, const Vec3& origin) {
   return write_text(write_ply, shape);
 }
 
-template <class F>
-std::string sentence_of(F&& f) {
-  try {
-    f();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "done";
-}
-
 long peak_kilobytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
