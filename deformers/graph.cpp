@@ -37,6 +37,22 @@ std::vector<Vec3> choose_nodes(const Shape& shape, const GraphOptions& options, 
   return nodes;
 }
 
+/// The finite point of the shape nearest to each of `to`.
+std::vector<Index> nearest_points(const Shape& shape, std::span<const Vec3> to) {
+  std::vector<Index> finite;
+  std::vector<Vec3> points;
+  for (Index i = 0; i < shape.size(); ++i)
+    if (shape.positions[i].allFinite()) {
+      finite.push_back(i);
+      points.push_back(shape.positions[i]);
+    }
+  std::vector<Index> near(to.size());
+  std::vector<double> distance(to.size());
+  NearestTree(points).nearest(to, 1, near, distance);
+  for (Index& i : near) i = finite[i];
+  return near;
+}
+
 class GraphDeformer final : public Deformer {
  public:
   GraphDeformer(std::shared_ptr<const Shape> rest, const GraphOptions& options, std::vector<Vec3> nodes,
@@ -54,8 +70,27 @@ class GraphDeformer final : public Deformer {
   }
 
   const SkinWeights& weights() const override { return weights_; }
-  SkinWeights bind(std::span<const Vec3> points) const override { return node_weights(tree_, neighbours_, points); }
+  SkinWeights bind(std::span<const Vec3> points, Gradients gradients) const override {
+    return node_weights(tree_, neighbours_, points, gradients);
+  }
   const Pose& pose() const override { return pose_; }
+  std::vector<double> map_energy() const override { return solver_.node_energy(); }
+  std::unique_ptr<Deformer> refined() const override { return nullptr; }
+
+  void follow(std::shared_ptr<const Shape> rest) override {
+    CHECK(rest->size() == rest_->size(), rest->size(), rest_->size());
+    if (carriers_.empty()) carriers_ = nearest_points(*rest_, nodes_);
+    // A node between points keeps its place beside the nearest one.
+    for (std::size_t j = 0; j < nodes_.size(); ++j) {
+      const Vec3 moved = rest->positions[carriers_[j]] - rest_->positions[carriers_[j]];
+      if (moved.allFinite()) nodes_[j] += moved;
+    }
+    rest_ = std::move(rest);
+    tree_ = NearestTree(nodes_);
+    solver_.move_nodes(normalised(nodes_));
+    prepared_ = false;
+    publish();
+  }
   std::vector<std::string> notes() const override { return notes_; }
 
   Figures counts() const override {
@@ -75,7 +110,7 @@ class GraphDeformer final : public Deformer {
         targets.push_back(unit_.apply(handle.targets[i]));
       }
     }
-    if (constraints.fixed != fixed_ || handle_points != handle_points_)
+    if (!prepared_ || constraints.fixed != fixed_ || handle_points != handle_points_)
       prepare(constraints.fixed, std::move(handle_points));
     const double prefactor = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     SolveReport report = solver_.solve(targets, options, [&] {
@@ -146,6 +181,7 @@ class GraphDeformer final : public Deformer {
       handles.push_back(std::move(handle));
     }
     solver_.prepare(fixed_node, std::move(handles));
+    prepared_ = true;
   }
 
   /// x as affine maps in the shape's coordinates: [R | g + t - R g] with g, t in its unit.
@@ -165,6 +201,8 @@ class GraphDeformer final : public Deformer {
   std::vector<std::string> notes_;
   GraphSolver solver_;
   std::vector<Index> fixed_, handle_points_;
+  std::vector<Index> carriers_;  ///< of each node, the point of the shape that carries it; empty until follow()
+  bool prepared_ = true;         ///< the solver knows the constraints and where the nodes are
   Pose pose_;
 };
 
@@ -204,7 +242,7 @@ const std::vector<Setting>& graph_settings() {
 }
 
 std::unique_ptr<Deformer> make(std::shared_ptr<const Shape> rest, const Settings& settings,
-                               std::span<const Index> given, const std::function<bool(double)>& progress) {
+                               const StructureWishes& wishes, const std::function<bool(double)>& progress) {
   const auto value = [&](const char* name) { return value_of(settings, graph_settings(), name); };
   GraphOptions options;
   options.nodes = static_cast<int>(value("nodes"));
@@ -215,11 +253,12 @@ std::unique_ptr<Deformer> make(std::shared_ptr<const Shape> rest, const Settings
   options.w_reg = value("regularization");
   options.w_con = value("constraint");
   options.plain = value("solver") == 1;
-  options.given.assign(given.begin(), given.end());
+  options.given.assign(wishes.points.begin(), wishes.points.end());
   return make_graph_deformer(std::move(rest), options, progress);
 }
 
-SkinWeights bind_from_tables(const std::vector<Deformer::Table>& binding, std::span<const Vec3> points) {
+SkinWeights bind_from_tables(const std::vector<Deformer::Table>& binding, std::span<const Vec3> points,
+                             Gradients gradients) {
   const Deformer::Table *nodes = nullptr, *neighbours = nullptr;
   for (const Deformer::Table& table : binding) {
     if (table.name == "nodes" && table.columns == 3) nodes = &table;
@@ -235,7 +274,7 @@ SkinWeights bind_from_tables(const std::vector<Deformer::Table>& binding, std::s
     if (!g.back().allFinite())
       throw InputError("table \"nodes\": expected finite numbers, found row " + std::to_string(i / 3));
   }
-  return node_weights(NearestTree(g), static_cast<int>(neighbours->values[0]), points);
+  return node_weights(NearestTree(g), static_cast<int>(neighbours->values[0]), points, gradients);
 }
 
 }  // namespace
@@ -247,7 +286,7 @@ std::unique_ptr<Deformer> make_graph_deformer(std::shared_ptr<const Shape> rest,
   if (progress && !progress(0.2)) return nullptr;
   NearestTree tree(nodes);
   bool cancelled = false;
-  SkinWeights weights = node_weights(tree, options.neighbours, rest->positions, [&](double done) {
+  SkinWeights weights = node_weights(tree, options.neighbours, rest->positions, Gradients::No, [&](double done) {
     cancelled = progress && !progress(0.2 + 0.8 * done);
     return !cancelled;
   });

@@ -157,6 +157,22 @@ GraphEnergy::Terms GraphEnergy::energy(const GraphState& x, bool rigid) const {
   return out;
 }
 
+std::vector<double> GraphEnergy::node_energy(const GraphState& x) const {
+  std::vector<double> out(x.R.size(), 0.0);
+  const std::vector<Mat4> D = displacements(x);
+  for (std::size_t row = 0; row + 1 < row_offsets_.size(); ++row) {
+    const double square = residual(D, row).squaredNorm();
+    const auto entries = static_cast<double>(row_offsets_[row + 1] - row_offsets_[row]);
+    for (std::size_t e = row_offsets_[row]; e < row_offsets_[row + 1]; ++e) out[entries_[e].node] += square / entries;
+  }
+  for (const Index j : free_nodes_)
+    for (int n = 0; n < 6; ++n) {
+      const double f = condition_residual(x.R[j], n);
+      out[j] += weights_.rotation * f * f;
+    }
+  return out;
+}
+
 std::vector<GraphEnergy::Mat4> GraphEnergy::linear_gradient(const GraphState& x) const {
   const std::vector<Mat4> D = displacements(x);
   std::vector<Mat4> G(free_nodes_.size(), Mat4::Zero());

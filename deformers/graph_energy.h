@@ -69,6 +69,10 @@ class GraphEnergy {
   /// With the rotation term, unless `rigid` (then R_j are rotations and it is zero but for rounding).
   Terms energy(const GraphState& x, bool rigid) const;
 
+  /// The same by node (all m, of those that rest 0): E_rot is the node's own, a row of the other terms is shared evenly
+  /// by the free nodes it has.
+  std::vector<double> node_energy(const GraphState& x) const;
+
   /// J'f in the frames Q (half the gradient): 6 or 12 values for each free node, [omega, tau] or [Delta by columns,
   /// tau].
   void gradient_rigid(const GraphState& x, std::span<double> out) const;

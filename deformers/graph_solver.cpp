@@ -59,6 +59,11 @@ void GraphSolver::prepare(const std::vector<bool>& fixed, std::vector<GraphHandl
   rest_what_is_held();
 }
 
+void GraphSolver::move_nodes(std::vector<Vec3> nodes) {
+  CHECK(nodes.size() == nodes_.size(), nodes.size(), nodes_.size());
+  nodes_ = std::move(nodes);
+}
+
 void GraphSolver::set_x(GraphState x) {
   CHECK(x.R.size() == nodes_.size() && x.t.size() == nodes_.size(), x.R.size(), nodes_.size());
   x_ = std::move(x);

@@ -24,7 +24,12 @@ class GraphSolver {
   SolveReport solve(std::span<const Vec3> targets, const SolveOptions& options,
                     const std::function<bool()>& on_iteration);
 
+  /// Puts the nodes elsewhere; the edges and x stay. prepare() must follow before the next solve.
+  void move_nodes(std::vector<Vec3> nodes);
+
   const GraphState& x() const { return x_; }
+  /// Energy of each node at x (GraphEnergy::node_energy); of a solver that has solved.
+  std::vector<double> node_energy() const { return energy_.node_energy(x_); }
   /// Where the next solve starts from, with nothing kept from earlier ones; nodes that do not move then go to rest.
   void set_x(GraphState x);
 

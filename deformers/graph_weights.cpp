@@ -27,9 +27,32 @@ void weights_of(const double* distance, int k, double* w) {
   for (int i = 0; i < k; ++i) w[i] = sum > 0 ? w[i] / sum : 1.0 / k;
 }
 
+/// Derivatives of the weights that weights_of gives, by the point v; `near` are its k + 1 nearest nodes. With
+/// s_j = 1 - d_j / d_max and q_j = s_j^2: grad w_j = (grad q_j - w_j sum grad q) / sum q.
+void gradients_of(const Eigen::Vector3d& v, std::span<const Eigen::Vector3d> nodes, const std::uint32_t* near,
+                  const double* distance, int k, const double* w, Eigen::Vector3d* out) {
+  const auto direction = [&](int i) {
+    return distance[i] > 0 ? Eigen::Vector3d((v - nodes[near[i]]) / distance[i]) : Eigen::Vector3d::Zero();
+  };
+  const double d_max = distance[k];
+  const Eigen::Vector3d grad_max = direction(k);
+  Eigen::Vector3d sum_grad = Eigen::Vector3d::Zero();
+  double sum = 0;
+  for (int i = 0; i < k; ++i) {
+    out[i].setZero();
+    if (!(w[i] > 0 && d_max > 0)) continue;
+    const double s = 1 - distance[i] / d_max;
+    out[i] = 2 * s / d_max * (grad_max * (distance[i] / d_max) - direction(i));
+    sum_grad += out[i];
+    sum += s * s;
+  }
+  for (int i = 0; i < k; ++i)
+    if (sum > 0 && w[i] > 0) out[i] = (out[i] - w[i] * sum_grad) / sum;
+}
+
 }  // namespace
 
-SkinWeights node_weights(const NearestTree& nodes, int k, std::span<const Eigen::Vector3d> points,
+SkinWeights node_weights(const NearestTree& nodes, int k, std::span<const Eigen::Vector3d> points, Gradients gradients,
                          const std::function<bool(double)>& progress) {
   CHECK(k >= 1, k);
   SkinWeights out;
@@ -45,6 +68,7 @@ SkinWeights node_weights(const NearestTree& nodes, int k, std::span<const Eigen:
   out.weights.reserve(points.size() * static_cast<std::size_t>(k));
   std::vector<std::uint32_t> index(block * width);
   std::vector<double> distance(block * width), w(width);
+  std::vector<Eigen::Vector3d> slopes(width, Eigen::Vector3d::Zero());
   for (std::size_t first = 0; first < points.size(); first += block) {
     if (progress && !progress(static_cast<double>(first) / static_cast<double>(points.size()))) return {};
     const std::size_t count = std::min(block, points.size() - first);
@@ -57,10 +81,13 @@ SkinWeights node_weights(const NearestTree& nodes, int k, std::span<const Eigen:
           w[0] = 1;
         else
           weights_of(&distance[i * width], k, w.data());
+        if (gradients == Gradients::Yes && m > 1)
+          gradients_of(points[first + i], nodes.points(), near, &distance[i * width], k, w.data(), slopes.data());
         for (int n = 0; n < k; ++n)
           if (w[static_cast<std::size_t>(n)] > 0) {
             out.maps.push_back(near[n]);
             out.weights.push_back(static_cast<float>(w[static_cast<std::size_t>(n)]));
+            if (gradients == Gradients::Yes) out.gradients.push_back(slopes[static_cast<std::size_t>(n)].cast<float>());
           }
       }
       out.offsets.push_back(out.maps.size());

@@ -14,8 +14,10 @@ namespace sinew {
 /// w_j(v) = (1 - |v - g_j| / d_max)^2 over the k nearest nodes, divided by their sum; d_max is the distance to the
 /// (k+1)-th. Where all k + 1 are equally far (the formula gives 0/0), the k share equally. With k nodes or fewer, k is
 /// one less than their number (one node: weight 1). A point that is not finite has an empty row. Rows list nodes in
-/// order of distance; weights of zero are left out. `progress` (0..1) may return false: the result is then empty.
-SkinWeights node_weights(const NearestTree& nodes, int k, std::span<const Eigen::Vector3d> points,
+/// order of distance; weights of zero are left out. Gradients are those of the formula; at a node, where
+/// |v - g_j| has none, that distance is taken as constant. `progress` (0..1) may return false: the result is then
+/// empty.
+SkinWeights node_weights(const NearestTree& nodes, int k, std::span<const Eigen::Vector3d> points, Gradients gradients,
                          const std::function<bool(double)>& progress = {});
 
 /// An edge (low, high), ascending, between any two nodes that influence one common point.

@@ -9,7 +9,15 @@ class Repeatable final : public Deformer {
   explicit Repeatable(std::unique_ptr<Deformer> inner) : inner_(std::move(inner)) {}
 
   const SkinWeights& weights() const override { return inner_->weights(); }
-  SkinWeights bind(std::span<const Vec3> points) const override { return inner_->bind(points); }
+  SkinWeights bind(std::span<const Vec3> points, Gradients gradients) const override {
+    return inner_->bind(points, gradients);
+  }
+  void follow(std::shared_ptr<const Shape> rest) override { inner_->follow(std::move(rest)); }
+  std::vector<double> map_energy() const override { return inner_->map_energy(); }
+  std::unique_ptr<Deformer> refined() const override {
+    std::unique_ptr<Deformer> finer = inner_->refined();
+    return finer == nullptr ? nullptr : std::make_unique<Repeatable>(std::move(finer));
+  }
   const Pose& pose() const override { return inner_->pose(); }
   Structure structure() const override { return inner_->structure(); }
   Figures counts() const override { return inner_->counts(); }
@@ -44,9 +52,9 @@ std::vector<Method> repeatable(std::span<const Method> methods) {
   std::vector<Method> out(methods.begin(), methods.end());
   for (Method& method : out)
     method.make = [make = method.make](std::shared_ptr<const Shape> rest, const Settings& settings,
-                                       std::span<const Index> given,
+                                       const StructureWishes& wishes,
                                        const std::function<bool(double)>& progress) -> std::unique_ptr<Deformer> {
-      std::unique_ptr<Deformer> inner = make(std::move(rest), settings, given, progress);
+      std::unique_ptr<Deformer> inner = make(std::move(rest), settings, wishes, progress);
       if (inner == nullptr) return nullptr;
       return std::make_unique<Repeatable>(std::move(inner));
     };

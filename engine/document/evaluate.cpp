@@ -34,7 +34,7 @@ double seconds_of(const std::function<void()>& work) {
 void measure(const Deformer& deformer, const LayerResult& result, const Shape& rest, std::span<const Vec3> bent,
              LayerReport& out) {
   std::vector<Vec3> moved(rest.size());
-  out.bind = seconds_of([&] { deformer.bind(rest.positions); });
+  out.bind = seconds_of([&] { deformer.bind(rest.positions, Gradients::No); });
   out.skin = seconds_of([&] { skin_points(*result.weights, *result.pose, rest.positions, moved); });
   out.quality = quality_of(rest, bent);
 }

@@ -89,7 +89,7 @@ Shape PoseApplier::apply(const Shape& shape) const {
   std::vector<Vec3> points(shape.size());
   for (const LayerMaps& layer : layers_) {
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = out.positions[i] + offset_;
-    const SkinWeights weights = layer.method->bind(layer.binding, points);
+    const SkinWeights weights = layer.method->bind(layer.binding, points, Gradients::No);
     const auto highest = std::max_element(weights.maps.begin(), weights.maps.end());
     if (highest != weights.maps.end() && *highest >= layer.maps.size())
       throw InputError("expected more than " + std::to_string(*highest) +

@@ -87,7 +87,7 @@ bool Workspace::make(Kept& kept, const Layer& layer, std::size_t index, const Up
     return !options.progress || options.progress("building", index, fraction);
   };
   const Settings settings = settings_of(layer, method);
-  kept.deformer = method.make(kept.rest, settings, selector_.points(layer.nodes), progress);
+  kept.deformer = method.make(kept.rest, settings, {selector_.points(layer.nodes), false, {}}, progress);
   if (kept.deformer == nullptr) return false;
   kept.result.layer = index;
   kept.result.build_seconds = seconds_since(begin);

@@ -13,8 +13,8 @@ const char* name_of(Type type) {
 }
 
 const char* name_of(Kind kind) {
-  static constexpr const char* names[] = {
-      "scalar", "color", "id", "point", "vector", "normal", "quaternion", "log-scale", "spherical-harmonics"};
+  static constexpr const char* names[] = {"scalar",   "color",  "id",         "point",     "vector",
+                                          "velocity", "normal", "quaternion", "log-scale", "spherical-harmonics"};
   return names[static_cast<int>(kind)];
 }
 

@@ -13,17 +13,19 @@
 
 namespace sinew {
 
-/// What a value means, and therefore how it bends. p -> M p + t near the point, M the blended 3x3.
+/// What a value means, and therefore how it bends. p -> M p + t near the point, M the blended 3x3; J is M and, where
+/// weights are a function of space, what their gradients add (skin_weights.h).
 enum class Kind {
   Scalar,              ///< unchanged
   Color,               ///< unchanged
   Id,                  ///< unchanged
   Point,               ///< follows the map: M x + t
-  Vector,              ///< M x
+  Vector,              ///< J x, J the map's derivative by position
+  Velocity,            ///< a unit of length a second: J x + how the map changes in a second
   Normal,              ///< cofactor(M) x, then its former length
-  Quaternion,          ///< with LogScale a covariance: M S M^T
-  LogScale,            ///< with Quaternion a covariance: M S M^T
-  SphericalHarmonics,  ///< turned by the rotation nearest to M
+  Quaternion,          ///< with LogScale a covariance: J S J^T
+  LogScale,            ///< with Quaternion a covariance: J S J^T
+  SphericalHarmonics,  ///< turned by the rotation nearest to J
 };
 
 const char* name_of(Kind kind);  ///< "scalar", "color", "id", "point", "vector", "normal", "quaternion", ...

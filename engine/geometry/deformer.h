@@ -65,8 +65,12 @@ class Deformer {
   /// Weights of the shape's own points, bound when the deformer was made.
   virtual const SkinWeights& weights() const = 0;
 
-  /// Weights of any other points of the same space, relative to the same origin.
-  virtual SkinWeights bind(std::span<const Vec3> points) const = 0;
+  /// Weights of any other points of the same space, relative to the same origin, where the structure is now (follow).
+  virtual SkinWeights bind(std::span<const Vec3> points, Gradients gradients) const = 0;
+
+  /// Takes another frame of the same points as the rest shape: the structure goes where the points went that it was
+  /// made on, weights() and x stay [Sumner et al. 2007, section 5, mesh animations]. rest->size() as before.
+  virtual void follow(std::shared_ptr<const Shape> rest) = 0;
 
   /// Minimises from the present x (warm). What depends only on which points are fixed and which are handles is kept
   /// between calls and redone when they change. The pose is always usable afterwards, whatever the status.
@@ -80,6 +84,14 @@ class Deformer {
   /// depends on the pose, the constraints and the options alone, to the last bit.
   virtual void reset() = 0;
   virtual void start_from(const Pose& pose) = 0;
+
+  /// The energy that belongs to each map at the present x (graph: a node's share of eq. 9), to show where the structure
+  /// is strained; in normalised coordinates.
+  virtual std::vector<double> map_energy() const = 0;
+
+  /// A deformer of the same rest shape with a finer structure, made where map_energy says that this one is too coarse,
+  /// its x this one's as nearly as it can be; null where this one is fine enough (or the method has no such thing).
+  virtual std::unique_ptr<Deformer> refined() const = 0;
 
   /// Lines and dots to draw of the method's own structure (graph nodes and edges, tets, coarse shell), at rest:
   /// vertices relative to the shape's origin, edges as pairs of them, and the map each vertex follows.
@@ -119,21 +131,38 @@ struct Setting {
 using Settings = std::vector<std::pair<std::string, double>>;
 double value_of(const Settings& settings, std::span<const Setting> described, const std::string& name);
 
+/// A curtain that parts what lies on its sides: the quads between each two neighbours of `path` and the same moved by
+/// `depth`. No influence passes through it. Relative to the shape's origin, in its unit.
+struct Cut {
+  std::vector<Vec3> path;
+  Vec3 depth = Vec3::Zero();
+  bool operator==(const Cut&) const = default;
+};
+
+/// What the user chose of a method's structure, beside its settings.
+struct StructureWishes {
+  /// Points of the shape that it is built on (graph: the nodes); empty: the method chooses.
+  std::span<const Index> points;
+  /// Each of `points` is joined to the next and to no other: the path of a particle [Sumner et al. 2007, section 5].
+  bool chain = false;
+  std::span<const Cut> cuts;
+};
+
 /// A method as the application hands it to document: one row of the table in deformers/methods.h.
 struct Method {
   std::string name;  ///< "graph", "tet", "shell"
   std::string help;  ///< one sentence
   std::vector<Setting> settings;
-  /// Makes the deformer of a rest shape: builds its structure and binds the shape's points. `given` are points of the
-  /// shape that the user chose for that structure (graph: the nodes); empty, the method chooses. Throws InputError
-  /// where the shape can't be bent by this method. `progress` is called with 0..1; false cancels (returns null). May be
-  /// empty.
+  /// Makes the deformer of a rest shape: builds its structure and binds the shape's points. Throws InputError where the
+  /// shape can't be bent by this method. `progress` is called with 0..1; false cancels (returns null). May be empty.
   std::function<std::unique_ptr<Deformer>(std::shared_ptr<const Shape> rest, const Settings& settings,
-                                          std::span<const Index> given, const std::function<bool(double)>& progress)>
+                                          const StructureWishes& wishes, const std::function<bool(double)>& progress)>
       make;
   /// Binds points from the tables of a pose file (Deformer::binding) without a deformer. Throws InputError with a
   /// message about the tables (the caller adds the path).
-  std::function<SkinWeights(const std::vector<Deformer::Table>& binding, std::span<const Vec3> points)> bind;
+  std::function<SkinWeights(const std::vector<Deformer::Table>& binding, std::span<const Vec3> points,
+                            Gradients gradients)>
+      bind;
 };
 
 }  // namespace sinew

@@ -38,6 +38,10 @@ std::size_t NearestTree::size() const {
   return tree_->points.size();
 }
 
+std::span<const Eigen::Vector3d> NearestTree::points() const {
+  return tree_->points;
+}
+
 void NearestTree::nearest(std::span<const Eigen::Vector3d> queries, int k, std::span<std::uint32_t> out_index,
                           std::span<double> out_distance) const {
   const auto width = static_cast<std::size_t>(k);

@@ -17,6 +17,7 @@ class NearestTree {
   NearestTree& operator=(NearestTree&&) noexcept;
 
   std::size_t size() const;
+  std::span<const Eigen::Vector3d> points() const;  ///< in the order of the constructor
 
   /// The k nearest points of each query, nearest first; equal distances in order of index. out_index, out_distance:
   /// queries x k, row by row; a row has min(k, size) entries, the rest is `none` and infinity. A query that is not

@@ -36,14 +36,15 @@ Vec3 row(const Attribute& attribute, std::size_t i) {
 }
 
 bool bends(const Attribute& attribute) {
-  const bool kind = attribute.kind == Kind::Point || attribute.kind == Kind::Vector || attribute.kind == Kind::Normal;
+  const bool kind = attribute.kind == Kind::Point || attribute.kind == Kind::Vector ||
+                    attribute.kind == Kind::Velocity || attribute.kind == Kind::Normal;
   return kind && attribute.components == 3;
 }
 
 /// Value i of an attribute under the map p -> M p + t (t with the shape's origin folded in).
 Vec3 bend(Kind kind, const Mat3& M, const Vec3& t, const Vec3& value) {
   if (kind == Kind::Normal) return skin_normal(M, value);
-  return kind == Kind::Vector ? Vec3(M * value) : Vec3(M * value + t);
+  return kind == Kind::Point ? Vec3(M * value + t) : Vec3(M * value);
 }
 
 /// `in` and `out` are the same attribute before and after.

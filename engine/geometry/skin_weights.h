@@ -26,10 +26,17 @@ inline Affine identity_map() {
 /// One map per graph node, tet, or shell face.
 using Pose = std::vector<Affine>;
 
+/// Whether bind() is to give SkinWeights::gradients.
+enum class Gradients { No, Yes };
+
 struct SkinWeights {
   std::vector<std::uint64_t> offsets{0};  ///< n + 1: row i is [offsets[i], offsets[i+1])
   std::vector<std::uint32_t> maps;        ///< index of a map
   std::vector<float> weights;             ///< sum to 1 in each row that is not empty
+
+  /// Of each weight by the point's position, where weights are a function of space and gradients were asked for;
+  /// otherwise empty. Then p' has the derivative J = M + sum_j (A_j p + t_j) grad w_ij^T, else J = M = sum_j w_ij A_j.
+  std::vector<Eigen::Vector3f> gradients;
 
   std::size_t size() const { return offsets.size() - 1; }  ///< n, the number of points
   std::size_t influences() const { return maps.size(); }

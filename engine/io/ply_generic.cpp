@@ -21,7 +21,7 @@ std::vector<std::string> standard_fields(const Attribute& attribute) {
   if (attribute.kind == Kind::Normal && components == 3) return {"nx", "ny", "nz"};
   if (attribute.kind == Kind::Color && components == 3) return {"red", "green", "blue"};
   if (attribute.kind == Kind::Color && components == 4) return {"red", "green", "blue", "alpha"};
-  if (attribute.kind == Kind::Vector && components == 3) return {"vx", "vy", "vz"};
+  if (attribute.kind == Kind::Velocity && components == 3) return {"vx", "vy", "vz"};
   if (complete) return attribute.fields;
   if (components == 1) return {attribute.name};
   std::vector<std::string> fields;

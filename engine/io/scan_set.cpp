@@ -29,7 +29,8 @@ bool same_kind(const Attribute& a, const Attribute& b) {
 
 /// What can be one attribute of the set: it has a value a point, and we can turn it.
 bool can_merge(const Attribute& a) {
-  const bool turned = a.kind == Kind::Normal || a.kind == Kind::Vector || a.kind == Kind::Point;
+  const bool turned =
+      a.kind == Kind::Normal || a.kind == Kind::Vector || a.kind == Kind::Velocity || a.kind == Kind::Point;
   const bool still = a.kind == Kind::Scalar || a.kind == Kind::Color || a.kind == Kind::Id;
   return a.per_point() && (still || (turned && a.components == 3));
 }
@@ -151,7 +152,8 @@ Attribute in_world(const Part& part, Attribute attribute) {
 }
 
 void transform(Attribute& attribute, const std::function<Vec3(const Vec3&)>& map) {
-  const bool turned = attribute.kind == Kind::Normal || attribute.kind == Kind::Vector || attribute.kind == Kind::Point;
+  const bool turned = attribute.kind == Kind::Normal || attribute.kind == Kind::Vector ||
+                      attribute.kind == Kind::Velocity || attribute.kind == Kind::Point;
   if (!turned || attribute.components != 3) return;
   for (std::size_t i = 0; i < attribute.count(); ++i) {
     const Vec3 x = map({attribute.number(i, 0), attribute.number(i, 1), attribute.number(i, 2)});

@@ -352,12 +352,15 @@ TEST(Graph, ABindingMovesOtherPointsOfTheSameSpace) {
   const auto deformer = deformer_of(shape, with_given());
   deformer->solve(lift(shape), {});
   const Method method = graph_method();
-  const SkinWeights bound = method.bind(deformer->binding(), shape.positions);
+  const SkinWeights bound = method.bind(deformer->binding(), shape.positions, Gradients::No);
   EXPECT_EQ(bound.maps, deformer->weights().maps);
   EXPECT_EQ(bound.weights, deformer->weights().weights);
-  EXPECT_THROW(method.bind({}, shape.positions), InputError);
-  EXPECT_THROW(method.bind({{"nodes", 3, {0, 0, std::nan("")}}, {"neighbours", 1, {4}}}, shape.positions), InputError);
-  EXPECT_THROW(method.bind({{"nodes", 3, {0, 0, 0}}, {"neighbours", 1, {0}}}, shape.positions), InputError);
+  EXPECT_THROW(method.bind({}, shape.positions, Gradients::No), InputError);
+  EXPECT_THROW(
+      method.bind({{"nodes", 3, {0, 0, std::nan("")}}, {"neighbours", 1, {4}}}, shape.positions, Gradients::No),
+      InputError);
+  EXPECT_THROW(method.bind({{"nodes", 3, {0, 0, 0}}, {"neighbours", 1, {0}}}, shape.positions, Gradients::No),
+               InputError);
 }
 
 TEST(Graph, SaysWhatItCannotBend) {

@@ -13,10 +13,13 @@ namespace sinew {
 class ToyDeformer : public Deformer {
  public:
   ToyDeformer(std::shared_ptr<const Shape> rest, double pause) : rest_(std::move(rest)), pause_(pause) {
-    weights_ = bind(rest_->positions);
+    weights_ = bind_all(rest_->positions);
   }
   const SkinWeights& weights() const override { return weights_; }
-  SkinWeights bind(std::span<const Vec3> points) const override { return bind_all(points); }
+  SkinWeights bind(std::span<const Vec3> points, Gradients) const override { return bind_all(points); }
+  void follow(std::shared_ptr<const Shape> rest) override { rest_ = std::move(rest); }
+  std::vector<double> map_energy() const override { return {0}; }
+  std::unique_ptr<Deformer> refined() const override { return nullptr; }
   const Pose& pose() const override { return pose_; }
   void reset() override { pose_ = {identity_map()}; }
   void start_from(const Pose& pose) override { pose_ = pose; }
@@ -76,13 +79,13 @@ inline Method toy_method(int* made = nullptr) {
                      {"count", 5, 1, 10, "", "Nothing.", true, {}},
                      {"style", 0, 0, 1, "", "Nothing.", false, {"round", "square"}}};
   method.make = [made, settings = method.settings](
-                    std::shared_ptr<const Shape> rest, const Settings& values, std::span<const Index>,
+                    std::shared_ptr<const Shape> rest, const Settings& values, const StructureWishes&,
                     const std::function<bool(double)>& progress) -> std::unique_ptr<Deformer> {
     if (progress && !progress(0.5)) return nullptr;
     if (made != nullptr) ++*made;
     return std::make_unique<ToyDeformer>(std::move(rest), value_of(values, settings, "pause"));
   };
-  method.bind = [](const std::vector<Deformer::Table>& binding, std::span<const Vec3> points) {
+  method.bind = [](const std::vector<Deformer::Table>& binding, std::span<const Vec3> points, Gradients) {
     if (binding.size() != 1 || binding[0].name != "toy") throw InputError("expected a table \"toy\", found none");
     return ToyDeformer::bind_all(points);
   };

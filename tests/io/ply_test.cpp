@@ -188,7 +188,7 @@ TEST(Ply, FieldsBecomeAttributesOfTheirKind) {
     found += a.name + " " + name_of(a.kind) + " " + name_of(a.type) + " " + std::to_string(a.components) + "\n";
   EXPECT_EQ(found,
             "normal normal float32 3\ncolor color uint8 4\nintensity scalar float32 1\npatch id int32 1\n"
-            "velocity vector float32 3\nf_dc spherical-harmonics float32 3\nf_rest spherical-harmonics float32 2\n"
+            "velocity velocity float32 3\nf_dc spherical-harmonics float32 3\nf_rest spherical-harmonics float32 2\n"
             "opacity scalar float32 1\nscale log-scale float32 3\nrot quaternion float32 4\n"
             "diffuse_red scalar float64 1\ndiffuse_green scalar uint8 1\n");
 }
