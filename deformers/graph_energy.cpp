@@ -1,9 +1,10 @@
 #include "deformers/graph_energy.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+
+#include "engine/geometry/affine.h"
 
 namespace sinew {
 
@@ -37,9 +38,7 @@ Mat3 cross_matrix(const Vec3& a) {
 }  // namespace
 
 Mat3 nearest_rotation(const Mat3& M) {
-  const Eigen::JacobiSVD<Mat3> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Vec3 sign(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-  return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  return polar(M).first;
 }
 
 Mat3 rotation_of(const Vec3& w) {

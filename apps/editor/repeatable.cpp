@@ -12,11 +12,17 @@ class Repeatable final : public Deformer {
   SkinWeights bind(std::span<const Vec3> points, Gradients gradients) const override {
     return inner_->bind(points, gradients);
   }
-  void follow(std::shared_ptr<const Shape> rest) override { inner_->follow(std::move(rest)); }
+  void follow(std::shared_ptr<const Shape> rest) override {
+    inner_->follow(std::move(rest));
+    if (!start_.empty()) start_ = inner_->pose();  // the same x where the structure is now
+  }
   std::vector<double> map_energy() const override { return inner_->map_energy(); }
   std::unique_ptr<Deformer> refined() const override {
     std::unique_ptr<Deformer> finer = inner_->refined();
-    return finer == nullptr ? nullptr : std::make_unique<Repeatable>(std::move(finer));
+    if (finer == nullptr) return nullptr;
+    auto out = std::make_unique<Repeatable>(std::move(finer));
+    out->start_ = out->inner_->pose();
+    return out;
   }
   const Pose& pose() const override { return inner_->pose(); }
   Structure structure() const override { return inner_->structure(); }

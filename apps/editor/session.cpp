@@ -53,7 +53,7 @@ void Session::ask(SolveOptions::Quality quality, const document::Project& projec
   if (!has_input()) return;
   document::SolveRequest request;
   request.ticket = ++ticket_;
-  request.input = input_;
+  request.input = sequence_;
   request.layers = project.layers.empty() ? std::vector{standard_layer()} : project.layers;
   request.quality = quality;
   if (quality == SolveOptions::Quality::Final) {
@@ -64,7 +64,7 @@ void Session::ask(SolveOptions::Quality quality, const document::Project& projec
 }
 
 void Session::take_answer(document::SolveAnswer answer) {
-  if (answer.input != input_ || !has_input()) return;
+  if (answer.input != sequence_ || !has_input()) return;
   if (!answer.error.empty()) {
     if (answer.ticket != ticket_) return;
     notify(Severity::Error, answer.error);

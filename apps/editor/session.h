@@ -239,6 +239,7 @@ class Session {
   std::function<void()> wake_;
 
   std::shared_ptr<const Shape> input_;
+  std::shared_ptr<const Sequence> sequence_;  ///< input_, as the solver takes it
   std::string input_path_, edit_path_;
   Bounds bounds_;
   document::History history_{document::Project{}};

@@ -93,6 +93,7 @@ void Session::adopt(std::shared_ptr<const Shape> shape, const std::string& path,
 void Session::show(Opened opened) {
   close();
   input_ = std::move(opened.shape);
+  sequence_ = std::make_shared<const Sequence>(still(input_));
   input_path_ = std::move(opened.input_path);
   edit_path_ = std::move(opened.edit_path);
   bounds_ = opened.bounds;
@@ -114,6 +115,7 @@ void Session::close() {
   drag_.reset();
   settling_.reset();
   input_.reset();
+  sequence_.reset();
   selector_.reset();
   neighbourhood_.reset();
   after_neighbourhood_.clear();

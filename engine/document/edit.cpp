@@ -35,7 +35,7 @@ concept Is = std::is_same_v<std::remove_const_t<T>, U>;
 
 template <class T>
 requires Is<T, Selection> || Is<T, Ball> || Is<T, Rotation> || Is<T, Motion> || Is<T, HandleEdit> || Is<T, Stiffness> ||
-    Is<T, Key> || Is<T, Layer> || Is<T, EditFile>
+    Is<T, Key> || Is<T, CutEdit> || Is<T, ParticlePath> || Is<T, Layer> || Is<T, EditFile>
 inline constexpr bool is_object<T> = true;
 
 static void read_value(const JsonFile& file, const Json& json, SettingsObject& settings) {
@@ -161,6 +161,7 @@ template <class A>
 static void fields(A& a, Is<Selection> auto& selection) {
   if constexpr (A::reading) choose_kind(a, selection);
   std::visit([&](auto& what) { fields(a, what); }, selection.what);
+  a.optional("frame", selection.frame);
   a.place(selection.place);
 }
 
@@ -210,10 +211,70 @@ static void fields(A& a, Is<Stiffness> auto& stiffness) {
   a.required("factor", stiffness.factor, positive);
 }
 
+static constexpr std::array interpolations = {"linear", "smooth", "hold"};
+
+static void read_value(const JsonFile& file, const Json& json, Interpolation& value) {
+  std::string name;
+  read_value(file, json, name);
+  const auto found = std::find(interpolations.begin(), interpolations.end(), name);
+  if (found == interpolations.end()) throw file.error(json, "\"linear\", \"smooth\" or \"hold\"");
+  value = static_cast<Interpolation>(found - interpolations.begin());
+}
+
+static void write_value(JsonWriter& out, Interpolation value) {
+  out.text(interpolations[static_cast<std::size_t>(value)]);
+}
+
 template <class A>
 static void fields(A& a, Is<Key> auto& key) {
   a.required("frame", key.frame);
   a.required("handles", key.handles);
+  a.optional("interpolation", key.interpolation);
+  a.place(key.place);
+}
+
+static void check_keys(const ObjectReader& reader, const Layer& layer) {
+  const Json* json = reader.json().find("keys");
+  for (std::size_t k = 0; k < layer.keys.size(); ++k) {
+    const Key& key = layer.keys[k];
+    const Json& at = json->items()[k];
+    if (k > 0 && key.frame <= layer.keys[k - 1].frame)
+      throw reader.file().error(at, "keys in ascending order of frames", "frame " + std::to_string(key.frame));
+    if (key.handles.size() > layer.handles.size())
+      throw reader.file().error(
+          at, "at most " + std::to_string(layer.handles.size()) + " motions, one a handle of the layer",
+          std::to_string(key.handles.size()));
+  }
+}
+
+template <class A>
+static void fields(A& a, Is<CutEdit> auto& cut) {
+  a.required("path", cut.path);
+  a.required("depth", cut.depth);
+  a.place(cut.place);
+  if constexpr (A::reading) {
+    const Json* path = a.json().find("path");
+    if (path != nullptr && cut.path.size() < 2) throw a.file().error(*path, "two points or more", "fewer");
+    const Json* depth = a.json().find("depth");
+    if (depth != nullptr && !(cut.depth.norm() > 0)) throw a.file().error(*depth, "a depth above 0", "[0, 0, 0]");
+  }
+}
+
+template <class A>
+static void fields(A& a, Is<ParticlePath> auto& path) {
+  a.optional("id", path.id);
+  std::optional<int> given = path.every == 1 ? std::nullopt : std::optional(path.every);
+  a.optional("every", given);
+  a.optional("points", path.points);
+  a.place(path.place);
+  if constexpr (A::reading) {
+    const Json *every = a.json().find("every"), *points = a.json().find("points"), *id = a.json().find("id");
+    path.every = given.value_or(1);
+    if (every != nullptr && path.every < 1) throw a.file().error(*every, "a whole number of at least 1");
+    if (points != nullptr && path.points.get().size() < 2) throw a.file().error(*points, "two points or more", "fewer");
+    if (points != nullptr && (every != nullptr || id != nullptr))
+      throw a.file().error(a.json(), "\"points\" alone, or \"id\" and \"every\"", "both");
+  }
 }
 
 template <class A>
@@ -224,6 +285,9 @@ static void fields(A& a, Is<Layer> auto& layer) {
   a.optional("off", off);
   a.required("method", layer.method);
   a.optional("settings", settings);
+  a.optional("frame", layer.frame);
+  a.optional("path", layer.path);
+  a.optional("cuts", layer.cuts);
   a.optional("nodes", layer.nodes);
   a.optional("fixed", layer.fixed);
   a.optional("handles", layer.handles);
@@ -236,6 +300,7 @@ static void fields(A& a, Is<Layer> auto& layer) {
   if constexpr (A::reading) {
     layer.settings = std::move(settings.rows);
     layer.on = !off;
+    check_keys(a, layer);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "engine/document/evaluate.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -39,20 +40,73 @@ void measure(const Deformer& deformer, const LayerResult& result, const Shape& r
   out.quality = quality_of(rest, bent);
 }
 
+/// Whether a shape has attributes that bend by the derivative of the map.
+bool needs_gradients(const Shape& shape) {
+  return std::any_of(shape.attributes.begin(), shape.attributes.end(), [](const Attribute& attribute) {
+    return attribute.kind == Kind::Vector || attribute.kind == Kind::Velocity || attribute.kind == Kind::Quaternion;
+  });
+}
+
+bool has_velocities(const Shape& shape) {
+  return std::any_of(shape.attributes.begin(), shape.attributes.end(),
+                     [](const Attribute& attribute) { return attribute.kind == Kind::Velocity; });
+}
+
+UpdateResult solved(Workspace& workspace, std::span<const Layer> layers, int frame, const EvaluateOptions& options) {
+  UpdateOptions wanted;
+  wanted.frame = frame;
+  wanted.progress = options.progress;
+  UpdateResult update = workspace.update(layers, wanted);
+  if (update.stopped) throw io::Cancelled{};
+  return update;
+}
+
+/// How fast each map of each layer changes at a frame, a second, from the poses at the frames beside it. Empty where
+/// nothing changes.
+std::vector<Pose> rates_of(Workspace& workspace, std::span<const Layer> layers, int frame,
+                           const EvaluateOptions& options) {
+  const Sequence& sequence = workspace.sequence();
+  const bool keyed =
+      std::any_of(layers.begin(), layers.end(), [](const Layer& layer) { return layer.on && !layer.keys.empty(); });
+  if (sequence.frames.size() < 2 || (workspace.stream() && !keyed)) return {};
+  const auto here = std::lower_bound(sequence.frames.begin(), sequence.frames.end(), frame);
+  const int before = here == sequence.frames.begin() ? frame : *(here - 1);
+  const int after = here + 1 == sequence.frames.end() ? frame : *(here + 1);
+  const double seconds = (after - before) / sequence.rate;
+  const UpdateResult first = solved(workspace, layers, before, options),
+                     last = solved(workspace, layers, after, options);
+  std::vector<Pose> out;
+  for (std::size_t i = 0; i < first.layers.size(); ++i) {
+    const Pose &a = *first.layers[i].pose, &b = *last.layers[i].pose;
+    Pose rate(a.size());
+    for (std::size_t j = 0; j < a.size(); ++j) rate[j] = (b[j] - a[j]) / seconds;
+    out.push_back(std::move(rate));
+  }
+  return out;
+}
+
 }  // namespace
 
 Evaluation evaluate(const std::shared_ptr<const Shape>& input, std::span<const Layer> layers,
                     std::span<const Method> methods, const EvaluateOptions& options) {
   Workspace workspace(input, methods);
-  UpdateOptions wanted;
-  wanted.progress = options.progress;
-  UpdateResult update = workspace.update(layers, wanted);
-  if (update.stopped) throw io::Cancelled{};
+  return evaluate(workspace, layers, workspace.sequence().frames.front(), options);
+}
+
+Evaluation evaluate(Workspace& workspace, std::span<const Layer> layers, int frame, const EvaluateOptions& options) {
+  const std::shared_ptr<const Shape> input = workspace.input(frame);
+  std::vector<Pose> rates;
+  if (has_velocities(*input)) rates = rates_of(workspace, layers, frame, options);
+  UpdateResult update = solved(workspace, layers, frame, options);
 
   const double extent = bounds_of(input->positions).diagonal(), diagonal = extent > 0 ? extent : 1;
+  // Of a mesh animation the weights were bound once, to points that have gone elsewhere since: they do not change as a
+  // point moves.
+  const bool by_place = workspace.stream() || workspace.sequence().frames.size() == 1;
   Evaluation out;
   out.shape = input;
-  for (const LayerResult& result : update.layers) {
+  for (std::size_t i = 0; i < update.layers.size(); ++i) {
+    const LayerResult& result = update.layers[i];
     const Deformer& deformer = *workspace.deformer(result.layer);
     LayerReport report;
     report.method = layers[result.layer].method;
@@ -60,8 +114,21 @@ Evaluation evaluate(const std::shared_ptr<const Shape>& input, std::span<const L
     report.counts = deformer.counts();
     report.notes = deformer.notes();
     report.build = result.build_seconds;
-    const auto bent = std::make_shared<Shape>(skin(*out.shape, *result.weights, *result.pose));
-    measure_handles(result.constraints, bent->positions, diagonal, report);
+    const SkinWeights* weights = result.weights.get();
+    SkinWeights with_gradients;
+    if (by_place && needs_gradients(*out.shape)) {
+      with_gradients = deformer.bind(out.shape->positions, Gradients::Yes);
+      weights = &with_gradients;
+    }
+    const auto bent = std::make_shared<Shape>(skin(*out.shape, *weights, *result.pose));
+    if (workspace.stream()) {
+      const std::shared_ptr<const Shape> rest = workspace.rest(result.layer);
+      std::vector<Vec3> moved(rest->size());
+      skin_points(deformer.weights(), *result.pose, rest->positions, moved);
+      measure_handles(result.constraints, moved, diagonal, report);
+    } else {
+      measure_handles(result.constraints, bent->positions, diagonal, report);
+    }
     if (options.measure) measure(deformer, result, *out.shape, bent->positions, report);
     out.bindings.push_back(deformer.binding());
     out.reports.push_back(std::move(report));

@@ -28,4 +28,10 @@ struct EvaluateOptions {
 Evaluation evaluate(const std::shared_ptr<const Shape>& input, std::span<const Layer> layers,
                     std::span<const Method> methods, const EvaluateOptions& options = {});
 
+/// The same at one frame of a sequence, with a workspace that may have evaluated others: neither the result nor its
+/// bits depend on which. Velocities become those of the bent points: the rates of the maps come from the poses at the
+/// frames beside this one.
+Evaluation evaluate(Workspace& workspace, std::span<const Layer> layers, int frame,
+                    const EvaluateOptions& options = {});
+
 }  // namespace sinew::document

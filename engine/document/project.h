@@ -66,6 +66,8 @@ struct SelectLabels {
 struct Selection {
   std::variant<SelectAll, SelectIndices, SelectBox, SelectSphere, SelectNearest, SelectComponent, SelectLabels> what;
   Place place;
+  /// Of a sequence: where the points are looked for; absent: the layer's frame.
+  std::optional<int> frame = std::nullopt;
   bool operator==(const Selection&) const = default;
 };
 
@@ -99,11 +101,36 @@ struct Stiffness {
   bool operator==(const Stiffness&) const = default;
 };
 
-/// Motions of the layer's handles, in their order, at a frame.
+/// How the motions of a key become those of the next.
+enum class Interpolation { Linear, Smooth, Hold };
+
+/// Motions of the layer's handles, in their order, at a frame; handles beyond them keep their own. They are meant for
+/// the handles as they are at that frame; at other frames they are carried along with the handle's points (keys.h).
 struct Key {
   int frame = 1;
   std::vector<Motion> handles;
+  Interpolation interpolation = Interpolation::Linear;
+  Place place;
   bool operator==(const Key&) const = default;
+};
+
+/// A curtain that no influence passes: Cut of deformer.h, in the file's coordinates.
+struct CutEdit {
+  std::vector<Vec3> path;  ///< two points or more
+  Vec3 depth = Vec3::Zero();
+  Place place;
+  bool operator==(const CutEdit&) const = default;
+};
+
+/// The path of one particle of a stream, sampled at fixed time steps: the graph's nodes, each joined to the next
+/// [Sumner et al. 2007, section 5]. A layer with a path bends points wherever they are in space, so that their number
+/// and order may change from frame to frame.
+struct ParticlePath {
+  std::optional<double> id;  ///< of the particle (its attribute of kind id); absent: the one that lives longest
+  int every = 1;             ///< frames from one sample to the next
+  Shared<Vec3> points;       ///< the samples themselves, in the file's coordinates; then no frame is read to find them
+  Place place;
+  bool operator==(const ParticlePath&) const = default;
 };
 
 /// A setting as the user gave it: a number, or the name of a choice.
@@ -119,6 +146,9 @@ struct Layer {
   bool on = true;    ///< off: passed over
   std::string method = "graph";
   std::vector<SettingEdit> settings;
+  std::optional<int> frame;  ///< of a sequence: that the structure is made at; absent: the first key's, or the first
+  std::optional<ParticlePath> path;
+  std::vector<CutEdit> cuts;
   std::vector<Selection> nodes;  ///< points that the method is to build its structure on; empty: it chooses
   std::vector<Selection> fixed;
   std::vector<HandleEdit> handles;

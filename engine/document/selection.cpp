@@ -146,33 +146,55 @@ std::vector<Index> Selector::points_as_written(const Selection& selection) {
   return out;
 }
 
-Constraints Selector::constraints(const Layer& layer, std::span<const Vec3> rest) {
-  CHECK(rest.size() == input_->size(), rest.size(), input_->size());
+Marked marked(const Layer& layer, std::size_t count,
+              const std::function<std::vector<Index>(const Selection&, bool as_written)>& select) {
   constexpr Index none = ~Index{0}, fixed = none - 1;
-  std::vector<Index> owner(rest.size(), none);
-  Constraints out;
-  out.fixed = points(layer.fixed);
+  std::vector<Index> owner(count, none);
+  Marked out;
+  for (const Selection& selection : layer.fixed) {
+    const std::vector<Index> more = select(selection, false);
+    out.fixed.insert(out.fixed.end(), more.begin(), more.end());
+  }
+  std::sort(out.fixed.begin(), out.fixed.end());
+  out.fixed.erase(std::unique(out.fixed.begin(), out.fixed.end()), out.fixed.end());
   for (const Index i : out.fixed) owner[i] = fixed;
 
   const auto name = [](Index h) { return h == fixed ? "of the fixed" : "of handle " + std::to_string(h + 1); };
+  const auto check_targets = [](const Motion& motion, const Place& place, std::size_t points) {
+    const std::size_t targets = motion.to.get().size();
+    if (targets > 0 && targets != points)
+      throw file_error(place.text, std::to_string(points) + " targets in \"to\", one a point", std::to_string(targets));
+  };
   for (std::size_t h = 0; h < layer.handles.size(); ++h) {
     const HandleEdit& edit = layer.handles[h];
-    const std::vector<Vec3>& to = edit.motion.to.get();
-    Handle handle;
-    handle.points = to.empty() ? points(edit.points) : points_as_written(edit.points);
-    if (!to.empty() && to.size() != handle.points.size())
-      throw file_error(edit.place.text, std::to_string(handle.points.size()) + " targets in \"to\", one a point",
-                       std::to_string(to.size()));
-    std::vector<Vec3> at;
-    for (const Index i : handle.points) {
+    bool as_written = !edit.motion.to.get().empty();
+    for (const Key& key : layer.keys)
+      as_written = as_written || (h < key.handles.size() && !key.handles[h].to.get().empty());
+    std::vector<Index> points = select(edit.points, as_written);
+    check_targets(edit.motion, edit.place, points.size());
+    for (const Key& key : layer.keys)
+      if (h < key.handles.size()) check_targets(key.handles[h], key.place, points.size());
+    for (const Index i : points) {
       if (owner[i] != none)
         throw file_error(edit.place.text, "points of this handle alone",
                          "point " + std::to_string(i) + ", which is also one " + name(owner[i]));
       owner[i] = static_cast<Index>(h);
-      at.push_back(rest[i]);
     }
-    handle.targets = targets_of(edit.motion, at, input_->origin);
-    out.handles.push_back(std::move(handle));
+    out.handles.push_back(std::move(points));
+  }
+  return out;
+}
+
+Constraints Selector::constraints(const Layer& layer, std::span<const Vec3> rest) {
+  CHECK(rest.size() == input_->size(), rest.size(), input_->size());
+  const Marked points = marked(layer, rest.size(), [this](const Selection& selection, bool as_written) {
+    return as_written ? points_as_written(selection) : this->points(selection);
+  });
+  Constraints out{points.fixed, {}};
+  for (std::size_t h = 0; h < layer.handles.size(); ++h) {
+    std::vector<Vec3> at;
+    for (const Index i : points.handles[h]) at.push_back(rest[i]);
+    out.handles.push_back({points.handles[h], targets_of(layer.handles[h].motion, at, input_->origin)});
   }
   return out;
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// Selector: selections of an edit as point indices of a shape, and handles as targets.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -11,6 +12,18 @@
 #include "engine/geometry/topology.h"
 
 namespace sinew::document {
+
+/// Points of a layer's marks, in the order of the layer's handles.
+struct Marked {
+  std::vector<Index> fixed;
+  std::vector<std::vector<Index>> handles;
+};
+
+/// Makes the selections of a layer by `select` (of a selection; true: indices in their written order). `count`: of all
+/// points. Throws InputError where a point belongs to two handles, or to a handle and the fixed, or a "to" has another
+/// number of targets than the handle has points.
+Marked marked(const Layer& layer, std::size_t count,
+              const std::function<std::vector<Index>(const Selection&, bool as_written)>& select);
 
 /// Selections are made on the input, before any edit; points that are not finite belong to none. Components and label
 /// files are computed or read once. Throws InputError (PLACE: expected ..., found ...): an index beyond the points, a

@@ -50,10 +50,8 @@ double value_of(const SettingEdit& edit, const Setting& setting) {
 
 /// Parts of a layer that no method of the table knows yet: their name and how many the layer has.
 void refuse_unknown_parts(const Layer& layer) {
-  const std::pair<const char*, std::size_t> parts[] = {{"rigid", layer.rigid.size()},
-                                                       {"stiffness", layer.stiffness.size()},
-                                                       {"examples", layer.examples.size()},
-                                                       {"keys", layer.keys.size()}};
+  const std::pair<const char*, std::size_t> parts[] = {
+      {"rigid", layer.rigid.size()}, {"stiffness", layer.stiffness.size()}, {"examples", layer.examples.size()}};
   for (const auto& [name, count] : parts)
     if (count > 0)
       throw place_error(layer.place, "layer", "no \"" + std::string(name) + "\" for method " + layer.method,

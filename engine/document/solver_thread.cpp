@@ -11,7 +11,8 @@ namespace {
 bool same_build(const SolveRequest& now, const SolveRequest& next, std::size_t index) {
   if (now.input != next.input || index >= next.layers.size()) return false;
   const Layer &a = now.layers[index], &b = next.layers[index];
-  return b.on && a.method == b.method && a.settings == b.settings && a.nodes == b.nodes;
+  return b.on && a.method == b.method && a.settings == b.settings && a.nodes == b.nodes && a.path == b.path &&
+         a.cuts == b.cuts && a.frame == b.frame;
 }
 
 }  // namespace
@@ -54,16 +55,20 @@ void SolverThread::serve(const SolveRequest& request) {
   }
   if (!answer.error.empty()) {
     workspace_.reset();  // it may have been left in the middle of an update
-    answer = {request.ticket, request.input, {}, true, false, answer.error};
+    answer = {request.ticket, request.input, nullptr, request.frame, {}, true, false, answer.error};
   }
   building_ = 1;
   publish(std::move(answer));
 }
 
 SolveAnswer SolverThread::solve(const SolveRequest& request) {
-  if (workspace_ == nullptr || workspace_->input() != request.input)
+  if (workspace_ == nullptr || input_ != request.input) {
+    input_ = request.input;
     workspace_ = std::make_unique<Workspace>(request.input, methods_);
+  }
+  const std::shared_ptr<const Shape> shape = workspace_->input(request.frame);
   UpdateOptions options;
+  options.frame = request.frame;
   options.solve.quality = request.quality;
   options.progress = [&](const char* what, std::size_t layer, double fraction) {
     const bool solving = std::string_view(what) == "solving";
@@ -72,12 +77,12 @@ SolveAnswer SolverThread::solve(const SolveRequest& request) {
     return !requests_.closed() && !requests_.holds(stops);
   };
   options.on_iteration = [&](const std::vector<LayerResult>& layers) {
-    publish({request.ticket, request.input, layers, false, false, ""});
+    publish({request.ticket, request.input, shape, request.frame, layers, false, false, ""});
     return true;
   };
   const UpdateResult result = workspace_->update(request.layers, options);
   const bool final_quality = !result.stopped && request.quality == SolveOptions::Quality::Final;
-  return {request.ticket, request.input, result.layers, !result.stopped, final_quality, ""};
+  return {request.ticket, request.input, shape, request.frame, result.layers, !result.stopped, final_quality, ""};
 }
 
 void SolverThread::publish(SolveAnswer answer) {

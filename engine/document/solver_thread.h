@@ -20,18 +20,21 @@ namespace sinew::document {
 
 struct SolveRequest {
   std::uint64_t ticket = 0;  ///< the caller's; comes back in the answers
-  std::shared_ptr<const Shape> input;
+  std::shared_ptr<const Sequence> input;
+  int frame = 1;  ///< of the input, to be solved for
   std::vector<Layer> layers;
   SolveOptions::Quality quality = SolveOptions::Quality::Final;
 };
 
 struct SolveAnswer {
   std::uint64_t ticket = 0;
-  std::shared_ptr<const Shape> input;  ///< that the results belong to
-  std::vector<LayerResult> layers;     ///< so far; where `error` is set, none
-  bool finished = false;               ///< false: an iteration of a solve that goes on
-  bool final_quality = false;          ///< finished, and asked for with Quality::Final
-  std::string error;                   ///< a sentence, or empty
+  std::shared_ptr<const Sequence> input;  ///< that the results belong to
+  std::shared_ptr<const Shape> shape;     ///< its frame
+  int frame = 1;
+  std::vector<LayerResult> layers;  ///< so far; where `error` is set, none
+  bool finished = false;            ///< false: an iteration of a solve that goes on
+  bool final_quality = false;       ///< finished, and asked for with Quality::Final
+  std::string error;                ///< a sentence, or empty
 };
 
 class SolverThread {
@@ -69,8 +72,9 @@ class SolverThread {
   Mailbox<SolveAnswer> answers_;
   std::atomic<bool> busy_ = false;
   std::atomic<double> building_ = 1;
-  std::unique_ptr<Workspace> workspace_;  ///< of the solver's thread alone
-  std::thread thread_;                    ///< last: it uses all of the above
+  std::shared_ptr<const Sequence> input_;  ///< of the workspace
+  std::unique_ptr<Workspace> workspace_;   ///< of the solver's thread alone
+  std::thread thread_;                     ///< last: it uses all of the above
 };
 
 }  // namespace sinew::document

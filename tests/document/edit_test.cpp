@@ -17,7 +17,10 @@ const char* const everything = R"({
     "name": "Neck", "off": true,
     "method": "graph",
     "settings": { "nodes": 250, "sampling": "simplify" },
-    "nodes": [ { "component": 3 } ],
+    "frame": 3,
+    "path": { "id": 17, "every": 4 },
+    "cuts": [ { "path": [[0, 0, 0], [1, 0, 0.5]], "depth": [0, 0, 2] } ],
+    "nodes": [ { "component": 3, "frame": 7 } ],
     "fixed":   [ { "all": true }, { "box": [[0, 0, 0], [1, 2, 3]] } ],
     "handles": [ { "points": { "indices": [3, 1, 2] }, "move": [0, 0, 0.5] },
                  { "points": { "sphere": { "center": [1, 2, 3], "radius": 0.25 } },
@@ -27,9 +30,10 @@ const char* const everything = R"({
     "rigid":   [ { "component": 0 } ],
     "stiffness": [ { "points": { "all": true }, "factor": 10 } ],
     "examples": [ "poses/a.obj", "../b.obj", "/c.obj" ],
-    "keys": [ { "frame": 1, "handles": [ { "move": [0, 0, 0] } ] }, { "frame": 24, "handles": [ { "move": [0, 0, 0.5] } ] } ],
+    "keys": [ { "frame": 1, "handles": [ { "move": [0, 0, 0] } ] }, { "frame": 24, "handles": [ { "move": [0, 0, 0.5] } ],
+                                                                    "interpolation": "smooth" } ],
     "start": [ [1, 0, 0, 0.1, 0, 1, 0, 0.2, 0, 0, 1, 0.3] ]
-  }, { "method": "graph" } ]
+  }, { "method": "graph" , "path": { "points": [[0, 0, 0], [0, 1, 0]] } } ]
 })";
 
 }  // namespace
@@ -45,6 +49,15 @@ TEST(Edit, EveryFieldOfTheSchemaIsRead) {
   EXPECT_EQ(std::get<double>(layer.settings[0].value), 250);
   EXPECT_EQ(std::get<std::string>(layer.settings[1].value), "simplify");
   EXPECT_EQ(layer.settings[0].place.text, "edits/e.json:7:28");
+  EXPECT_EQ(layer.frame, 3);
+  EXPECT_EQ(layer.path->id, 17);
+  EXPECT_EQ(layer.path->every, 4);
+  EXPECT_EQ(project.layers[1].path->points.get().size(), 2u);
+  EXPECT_EQ(layer.cuts[0].path[1], Vec3(1, 0, 0.5));
+  EXPECT_EQ(layer.cuts[0].depth, Vec3(0, 0, 2));
+  EXPECT_EQ(layer.nodes[0].frame, 7);
+  EXPECT_EQ(layer.keys[0].interpolation, Interpolation::Linear);
+  EXPECT_EQ(layer.keys[1].interpolation, Interpolation::Smooth);
   EXPECT_EQ(std::get<SelectComponent>(layer.nodes[0].what).number, 3u);
   EXPECT_EQ(std::get<SelectBox>(layer.fixed[1].what).max, Vec3(1, 2, 3));
   ASSERT_EQ(layer.handles.size(), 4u);

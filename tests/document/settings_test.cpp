@@ -65,9 +65,6 @@ TEST(Settings, WhatNoMethodKnowsYetIsRefusedNotIgnored) {
   layer = toy_layer();
   layer.examples = {"a.obj"};
   EXPECT_EQ(message_of(layer), "e.json:1:2: expected no \"examples\" for method toy, found 1");
-  layer = toy_layer();
-  layer.keys.resize(1);
-  EXPECT_EQ(message_of(layer), "e.json:1:2: expected no \"keys\" for method toy, found 1");
 }
 
 TEST(Settings, FromTheCommandLine) {

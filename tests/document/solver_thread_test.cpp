@@ -45,27 +45,27 @@ constexpr auto interactive = SolveOptions::Quality::Interactive;
 
 TEST(SolverThread, AnswersWithThePosesOfEvaluate) {
   const Method methods[] = {toy_method()};
-  const auto input = line_of_points(100);
+  const auto input = std::make_shared<const Sequence>(still(line_of_points(100)));
   const std::vector<Layer> layers{mover(Vec3(1, 0, 0)), mover(Vec3(0, 1, 0))};
   SolverThread solver(methods);
-  solver.ask({7, input, layers, final_quality});
+  solver.ask({7, input, 1, layers, final_quality});
   const SolveAnswer answer = wait_for(solver, [](const SolveAnswer& a) { return a.finished; });
   EXPECT_EQ(answer.ticket, 7u);
   EXPECT_TRUE(answer.final_quality);
-  const Evaluation same = evaluate(input, layers, methods);
+  const Evaluation same = evaluate(input->load(1), layers, methods);
   ASSERT_EQ(answer.layers.size(), 2u);
   EXPECT_EQ(*answer.layers[1].pose, *same.layers[1].pose);
 }
 
 TEST(SolverThread, PublishesWhileItSolvesAndANewerRequestStopsIt) {
   const Method methods[] = {toy_method()};
-  const auto input = line_of_points(10);
+  const auto input = std::make_shared<const Sequence>(still(line_of_points(10)));
   SolverThread solver(methods);
-  solver.ask({1, input, {mover(Vec3(1, 0, 0), 0.02)}, interactive});
+  solver.ask({1, input, 1, {mover(Vec3(1, 0, 0), 0.02)}, interactive});
   const SolveAnswer first = wait_for(solver, [](const SolveAnswer& a) { return !a.finished; });
   EXPECT_EQ(first.ticket, 1u);
   EXPECT_GT(moved(first), 0);
-  solver.ask({2, input, {mover(Vec3(-1, 0, 0), 0.02)}, interactive});
+  solver.ask({2, input, 1, {mover(Vec3(-1, 0, 0), 0.02)}, interactive});
   const auto asked = std::chrono::steady_clock::now();
   const SolveAnswer second = wait_for(solver, [](const SolveAnswer& a) { return a.ticket == 2; });
   EXPECT_LT(std::chrono::steady_clock::now() - asked, std::chrono::milliseconds(700));  // alone, the first takes 0.8 s
@@ -74,11 +74,11 @@ TEST(SolverThread, PublishesWhileItSolvesAndANewerRequestStopsIt) {
 
 TEST(SolverThread, AStormOfRequestsEndsAtTheNewest) {
   const Method methods[] = {toy_method()};
-  const auto input = line_of_points(1000);
+  const auto input = std::make_shared<const Sequence>(still(line_of_points(1000)));
   std::atomic<int> woken = 0;
   SolverThread solver(methods, [&] { ++woken; });
   for (std::uint64_t i = 1; i <= 2000; ++i)
-    solver.ask({i, input, {mover(Vec3(static_cast<double>(i), 0, 0))}, i == 2000 ? final_quality : interactive});
+    solver.ask({i, input, 1, {mover(Vec3(static_cast<double>(i), 0, 0))}, i == 2000 ? final_quality : interactive});
   const SolveAnswer last = wait_for(solver, [](const SolveAnswer& a) { return a.final_quality; });
   EXPECT_EQ(last.ticket, 2000u);
   EXPECT_NEAR(moved(last), 2000, 1e-9);
@@ -88,15 +88,15 @@ TEST(SolverThread, AStormOfRequestsEndsAtTheNewest) {
 
 TEST(SolverThread, AnErrorIsASentenceAndTheNextRequestWorks) {
   const Method methods[] = {toy_method()};
-  const auto input = line_of_points(10);
+  const auto input = std::make_shared<const Sequence>(still(line_of_points(10)));
   SolverThread solver(methods);
   Layer bad = mover(Vec3(1, 0, 0));
   bad.handles[0].points.what = SelectIndices{Shared<Index>({10})};
-  solver.ask({1, input, {bad}, final_quality});
+  solver.ask({1, input, 1, {bad}, final_quality});
   const SolveAnswer failed = wait_for(solver, [](const SolveAnswer& a) { return a.finished; });
   EXPECT_NE(failed.error.find("expected indices below 10"), std::string::npos);
   EXPECT_TRUE(failed.layers.empty());
-  solver.ask({2, input, {mover(Vec3(1, 0, 0))}, final_quality});
+  solver.ask({2, input, 1, {mover(Vec3(1, 0, 0))}, final_quality});
   const SolveAnswer good = wait_for(solver, [](const SolveAnswer& a) { return a.finished; });
   EXPECT_EQ(good.error, "");
   EXPECT_NEAR(moved(good), 1, 1e-9);
@@ -104,17 +104,17 @@ TEST(SolverThread, AnErrorIsASentenceAndTheNextRequestWorks) {
 
 TEST(SolverThread, CancelLeadsToNoResultAndLeavingStopsASolve) {
   const Method methods[] = {toy_method()};
-  const auto input = line_of_points(10);
+  const auto input = std::make_shared<const Sequence>(still(line_of_points(10)));
   const auto begin = std::chrono::steady_clock::now();
   {
     SolverThread solver(methods);
-    solver.ask({1, input, {mover(Vec3(1, 0, 0), 0.02)}, final_quality});
+    solver.ask({1, input, 1, {mover(Vec3(1, 0, 0), 0.02)}, final_quality});
     wait_for(solver, [](const SolveAnswer& a) { return !a.finished; });
     solver.cancel();
     while (solver.busy()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const std::optional<SolveAnswer> last = solver.answer();
     EXPECT_TRUE(!last || !last->finished);
-    solver.ask({2, input, {mover(Vec3(1, 0, 0), 1)}, final_quality});
+    solver.ask({2, input, 1, {mover(Vec3(1, 0, 0), 1)}, final_quality});
     wait_for(solver, [](const SolveAnswer& a) { return a.ticket == 2; });
   }
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));  // 40 iterations of 1 s were asked for
