@@ -39,13 +39,6 @@ std::string lower(std::string text) {
   return text;
 }
 
-/// The format of a path, or of `as` where the path is "-".
-const Format& format_for(const std::string& path, const std::string& as) {
-  if (path != "-") return format_of(path);
-  if (as.empty()) throw file_error("-", "the format of the stream, by an extension", "none");
-  return format_of("-." + as);
-}
-
 /// Several files, all of them ready before the first is written.
 WriteReport write_files(const std::filesystem::path& folder, const std::string& conf_name, const Shape& shape,
                         bool force) {
@@ -90,6 +83,12 @@ const Format& format_of(const std::string& path) {
                    extension.empty() ? "no extension" : sinew::quoted("." + extension));
 }
 
+const Format& format_of(const std::string& path, const std::string& as) {
+  if (path != "-") return format_of(path);
+  if (as.empty()) throw file_error("-", "the format of the stream, by an extension", "none");
+  return format_of("-." + as);
+}
+
 std::vector<std::byte> load_bytes(const std::string& path) {
   InputFile in(path);
   // One byte more than the file has: its end is seen without another buffer.
@@ -107,7 +106,7 @@ void save_bytes(const std::string& path, std::span<const std::byte> bytes, bool 
 }
 
 std::shared_ptr<const Shape> read(const std::string& path, const ReadOptions& options, const std::string& as) {
-  const Format& format = format_for(path, as);
+  const Format& format = format_of(path, as);
   std::vector<std::byte> bytes = load_bytes(path);
   refuse_lfs_pointer(path, bytes, format.name);
   auto shape = std::make_shared<Shape>(format.read(path, std::move(bytes), options));
@@ -116,7 +115,7 @@ std::shared_ptr<const Shape> read(const std::string& path, const ReadOptions& op
 }
 
 WriteReport write(const std::string& path, const Shape& shape, bool force, const std::string& as) {
-  const Format& format = format_for(path, as);
+  const Format& format = format_of(path, as);
   if (format.write == nullptr) return write_set(path, shape, force);
   refuse_existing(path, force);
   WriteReport report;

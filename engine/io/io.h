@@ -25,6 +25,10 @@ struct WriteReport {
   std::vector<std::string> lost;  ///< one sentence for each thing that the format cannot hold
 };
 
+class ByteSource;
+class FrameWriter;
+struct FrameWriterOptions;
+
 struct Format {
   std::string name;                     ///< "PLY"
   std::vector<std::string> extensions;  ///< lower case, without the dot
@@ -33,12 +37,19 @@ struct Format {
   Shape (*read)(const std::string& path, std::vector<std::byte> bytes, const ReadOptions& options);
   /// The bytes of a file that holds `shape`. Null where the format is only read.
   std::vector<std::byte> (*write)(const std::string& path, const Shape& shape, WriteReport& report);
+  /// Where a file holds many frames (sequence.h): opening it, and making one. Null where it holds one; `read` then
+  /// gives the first. Origins of the frames are set.
+  Sequence (*open_frames)(std::shared_ptr<const ByteSource> bytes, const ReadOptions& options) = nullptr;
+  std::unique_ptr<FrameWriter> (*create_frames)(const std::string& path, const FrameWriterOptions& options) = nullptr;
 };
 
 std::span<const Format> formats();
 
 /// The format of a path by its extension; throws InputError that lists the known ones.
 const Format& format_of(const std::string& path);
+
+/// The same, of a path or, where that is "-", of `as`.
+const Format& format_of(const std::string& path, const std::string& as);
 
 /// Reads a file ("-" with `as` an extension: standard input). Sets the shape's origin. Throws InputError or Cancelled.
 std::shared_ptr<const Shape> read(const std::string& path, const ReadOptions& options = {}, const std::string& as = "");

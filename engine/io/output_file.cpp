@@ -12,6 +12,7 @@
 #include <filesystem>
 
 #include "engine/geometry/error.h"
+#include "engine/io/shared_file.h"
 
 namespace sinew::io {
 
@@ -85,6 +86,11 @@ void OutputFile::write(std::span<const std::byte> bytes) {
     if (written < 0) fail("room for " + std::to_string(bytes.size()) + " more bytes");
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
+}
+
+void OutputFile::write_at(std::uint64_t at, std::span<const std::byte> bytes) {
+  if (!write_all_at(file_, at, bytes))
+    fail("room for " + std::to_string(bytes.size()) + " bytes at byte " + std::to_string(at));
 }
 
 void OutputFile::commit() {

@@ -3,6 +3,7 @@
 /// devices and pipes are written as they come.
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -19,6 +20,8 @@ class OutputFile {
   ~OutputFile();  ///< without commit() nothing is left
 
   void write(std::span<const std::byte> bytes);
+  /// At byte `at`, from any thread; not on pipes. What lies between is zero.
+  void write_at(std::uint64_t at, std::span<const std::byte> bytes);
   /// To the disk and under its name, with its folder.
   void commit();
 
