@@ -6,9 +6,11 @@
 #include "engine/geometry/error.h"
 #include "engine/io/bytes.h"
 #include "engine/io/input_file.h"
+#include "engine/io/mdd.h"
 #include "engine/io/obj.h"
 #include "engine/io/off.h"
 #include "engine/io/output_file.h"
+#include "engine/io/pc2.h"
 #include "engine/io/pcd.h"
 #include "engine/io/ply.h"
 #include "engine/io/scan_set.h"
@@ -29,6 +31,8 @@ const std::vector<Format>& table() {
       {"PCD", {"pcd"}, "ascii, binary, compressed; all fields; everything else is kept", read_pcd, write_pcd},
       {"STL", {"stl"}, "ascii and binary; a soup of triangles, each with its normal", read_stl, write_stl},
       {"Scan set", {"conf"}, "scans in files of their own and the pose of each, as Stanford's", read_scan_set, nullptr},
+      {"PC2", {"pc2"}, "frames of points, with their start and step", read_pc2, write_pc2, open_pc2, create_pc2},
+      {"MDD", {"mdd"}, "frames of points, with their times", read_mdd, write_mdd, open_mdd, create_mdd},
   };
   return rows;
 }
