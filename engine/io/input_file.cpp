@@ -44,4 +44,9 @@ std::size_t InputFile::read(std::span<std::byte> bytes) {
   return size;
 }
 
+void InputFile::seek(std::uint64_t at) {
+  if (lseek(file_, static_cast<off_t>(at), SEEK_SET) < 0)
+    throw file_error(path_, "a file that can be read at byte " + std::to_string(at), quoted(std::strerror(errno)));
+}
+
 }  // namespace sinew::io

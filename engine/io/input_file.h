@@ -1,5 +1,5 @@
 #pragma once
-/// A file that is read from its beginning to its end; "-" is standard input.
+/// A file that is read from its beginning, or on a disk from any place, to its end; "-" is standard input.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,6 +19,8 @@ class InputFile {
 
   /// Fills `bytes`; fewer than asked for only at the end of the file. Returns how many.
   std::size_t read(std::span<std::byte> bytes);
+  /// Goes on reading at byte `at`; only for a file that has a size.
+  void seek(std::uint64_t at);
   /// Of a file on a disk; pipes and devices have none.
   std::optional<std::uint64_t> size() const { return size_; }
 

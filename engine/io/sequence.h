@@ -11,6 +11,7 @@
 
 #include "engine/geometry/shape.h"
 #include "engine/io/io.h"
+#include "engine/io/share.h"
 
 namespace sinew::io {
 
@@ -23,22 +24,6 @@ Sequence open_sequence(const std::string& path, const ReadOptions& options = {},
 /// Only the frames of `text` ("10-20x2"). Throws InputError that names those of them that `all`, read from `path`, does
 /// not have.
 Sequence chosen_frames(Sequence all, const std::string& path, std::string_view text);
-
-/// Task `index` of `count` tasks that share the frames of one output.
-struct Share {
-  int index = 1;  ///< 1..count
-  int count = 1;
-
-  /// The task's part of n things in order: [first, last).
-  std::size_t first(std::size_t n) const { return part(n, index - 1); }
-  std::size_t last(std::size_t n) const { return part(n, index); }
-
- private:
-  std::size_t part(std::size_t n, int i) const {
-    const auto c = static_cast<std::size_t>(count), k = static_cast<std::size_t>(i);
-    return n / c * k + n % c * k / c;
-  }
-};
 
 struct FrameWriterOptions {
   std::vector<int> frames;     ///< of the whole output, ascending; of all tasks

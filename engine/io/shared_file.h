@@ -1,20 +1,20 @@
 #pragma once
-/// A file that several processes write at once, each its own bytes: whoever comes first makes it, in its full size and
-/// with its header, which is the same for all. A process that is run again writes the same bytes again.
+/// A file that several processes, on one machine or many, write at once, each its own bytes: whoever comes first makes
+/// it, in its full size and with its header, which is the same for all. A process that is run again writes the same
+/// bytes again. The file is complete once each of them has committed; it cannot tell that by itself.
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace sinew::io {
 
 class SharedFile {
  public:
-  /// `header` are the first bytes of the file, not all zero. Throws InputError where a file is there that has another
-  /// size or header and `force` is not given; with `force` it gets them, and keeps what else it has until that is
-  /// written.
+  /// `header` are the first bytes of the file, not all zero. Throws InputError where there is what is no file on a
+  /// disk, or a file that has another size or header and `force` is not given; with `force` it gets them, and keeps
+  /// what else it has until that is written.
   SharedFile(const std::string& path, std::uint64_t size, std::span<const std::byte> header, bool force);
   SharedFile(const SharedFile&) = delete;
   SharedFile& operator=(const SharedFile&) = delete;

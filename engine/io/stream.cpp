@@ -1,5 +1,7 @@
 #include "engine/io/stream.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -9,6 +11,7 @@
 #include "engine/io/output_file.h"
 #include "engine/io/ply.h"
 #include "engine/io/ply_vertices.h"
+#include "engine/io/shared_file.h"
 
 namespace sinew::io {
 
@@ -61,7 +64,14 @@ class Source {
     }
   }
 
+  /// Goes on reading at byte `at`; only for a file that has a size.
+  void seek(std::uint64_t at) {
+    used_ = seen_.size();
+    file_.seek(at_ = at);
+  }
+
   const std::string& path() const { return path_; }
+  std::uint64_t size() const { return file_.size().value_or(0); }
   std::uint64_t at() const { return at_; }
   std::optional<std::uint64_t> left() const {
     return file_.size() && *file_.size() >= at_ ? std::optional(*file_.size() - at_) : std::nullopt;
@@ -74,6 +84,8 @@ class Source {
   std::size_t used_ = 0;  ///< bytes of seen_ that read() has given
   std::uint64_t at_ = 0;
 };
+
+using Write = std::function<void(std::span<const std::byte>)>;
 
 InputError truncated(const Source& source, const PlyElement& element, std::uint64_t left) {
   return byte_error(source.path(), static_cast<std::int64_t>(source.at()),
@@ -89,25 +101,25 @@ void check_rows(const Source& source, const PlyElement& element) {
     throw truncated(source, element, *left);
 }
 
-void copy_bytes(Source& source, OutputFile& out, std::uint64_t size, const PlyElement& element) {
+void copy_bytes(Source& source, const Write& write, std::uint64_t size, const PlyElement& element) {
   std::vector<std::byte> buffer(static_cast<std::size_t>(std::min<std::uint64_t>(size, chunk)));
   while (size > 0) {
     const auto part = std::span(buffer).first(static_cast<std::size_t>(std::min<std::uint64_t>(size, buffer.size())));
     const std::size_t got = source.read(part);
     if (got < part.size()) throw truncated(source, element, 0);
-    out.write(part);
+    write(part);
     size -= got;
   }
 }
 
-void copy_rest(Source& source, OutputFile& out) {
+void copy_rest(Source& source, const Write& write) {
   std::vector<std::byte> buffer(chunk);
-  while (const std::size_t got = source.read(buffer)) out.write(std::span(buffer).first(got));
+  while (const std::size_t got = source.read(buffer)) write(std::span(buffer).first(got));
 }
 
-/// The points, which come next in `source`, block by block.
-void bend_points(Source& source, OutputFile& out, const PlyHeader& header, const StreamOptions& options,
-                 const std::function<void(Shape&)>& bend) {
+/// `points` points, which come next in `source`, block by block.
+void bend_points(Source& source, const Write& write, const PlyHeader& header, std::uint64_t points,
+                 const StreamOptions& options, const std::function<void(Shape&)>& bend) {
   const PlyElement& vertices = header.vertices();
   const PlyVertices layout = layout_of(header);
   const std::size_t block_points = std::clamp<std::size_t>(most_bytes / layout.stride, 1, most_points);
@@ -116,8 +128,8 @@ void bend_points(Source& source, OutputFile& out, const PlyHeader& header, const
   block.origin = options.origin;
   block.position_type = layout.position_type;
   block.attributes = layout.attributes;
-  for (std::uint64_t done = 0; done < vertices.count;) {
-    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block_points, vertices.count - done));
+  for (std::uint64_t done = 0; done < points;) {
+    const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(block_points, points - done));
     rows.resize(count * layout.stride);
     if (const std::size_t got = source.read(rows); got < rows.size()) throw truncated(source, vertices, 0);
     block.positions.clear();
@@ -126,9 +138,9 @@ void bend_points(Source& source, OutputFile& out, const PlyHeader& header, const
     bend(block);
     CHECK(block.size() == count, block.size(), count);
     patch_rows(layout, block, 0, rows);
-    out.write(rows);
+    write(rows);
     done += count;
-    if (options.progress && !options.progress(static_cast<double>(done) / static_cast<double>(vertices.count)))
+    if (options.progress && !options.progress(static_cast<double>(done) / static_cast<double>(points)))
       throw Cancelled{};
   }
 }
@@ -140,20 +152,24 @@ bool can_stream(const PlyHeader& header) {
                       [](const PlyElement& element) { return element.has_list(); });
 }
 
+/// Bytes of the rows that come next in `source`. Refuses more than can be.
+std::uint64_t bytes_of_rows(const Source& source, const PlyElement& element) {
+  if (element.properties.empty()) return 0;
+  check_rows(source, element);
+  if (element.count > std::numeric_limits<std::uint64_t>::max() / element.row_size())
+    throw truncated(source, element, 0);
+  return element.count * element.row_size();
+}
+
 void stream_ply(Source& source, const PlyHeader& header, OutputFile& out, const StreamOptions& options,
                 const std::function<void(Shape&)>& bend) {
-  copy_bytes(source, out, header.size, header.vertices());
-  for (std::size_t e = 0; e < header.vertex; ++e) {
-    const PlyElement& element = header.elements[e];
-    if (element.properties.empty()) continue;
-    check_rows(source, element);
-    if (element.count > std::numeric_limits<std::uint64_t>::max() / element.row_size())
-      throw truncated(source, element, 0);
-    copy_bytes(source, out, element.count * element.row_size(), element);
-  }
-  check_rows(source, header.vertices());
-  bend_points(source, out, header, options, bend);
-  copy_rest(source, out);
+  const Write write = [&out](std::span<const std::byte> bytes) { out.write(bytes); };
+  copy_bytes(source, write, header.size, header.vertices());
+  for (std::size_t e = 0; e < header.vertex; ++e)
+    copy_bytes(source, write, bytes_of_rows(source, header.elements[e]), header.elements[e]);
+  bytes_of_rows(source, header.vertices());
+  bend_points(source, write, header, header.vertices().count, options, bend);
+  copy_rest(source, write);
 }
 
 const Format& format_for(const std::string& path, const std::string& as) {
@@ -176,10 +192,66 @@ WriteReport bend_whole(const std::string& in, std::vector<std::byte> bytes, cons
   return write(out, shape, options.force, options.as);
 }
 
+/// Both where they are there: links are followed.
+bool are_same_file(const std::string& a, const std::string& b) {
+  struct stat first, second;
+  return stat(a.c_str(), &first) == 0 && stat(b.c_str(), &second) == 0 && first.st_dev == second.st_dev &&
+         first.st_ino == second.st_ino;
+}
+
+/// The first task also copies what comes before the points, the last what follows them.
+void bend_share(Source& source, const PlyHeader& header, SharedFile& file, const StreamOptions& options,
+                const std::function<void(Shape&)>& bend) {
+  const PlyElement& vertices = header.vertices();
+  const std::uint64_t first = options.share->first(vertices.count), last = options.share->last(vertices.count);
+  const std::uint64_t begin = source.at(), end = begin + vertices.count * vertices.row_size();
+  std::uint64_t at = 0;
+  const Write write = [&](std::span<const std::byte> bytes) {
+    file.write_at(at, bytes);
+    at += bytes.size();
+  };
+  const auto go_to = [&](std::uint64_t byte) { source.seek(at = byte); };
+  go_to(0);
+  if (options.share->index == 1) copy_bytes(source, write, begin, vertices);
+  go_to(begin + first * vertices.row_size());
+  bend_points(source, write, header, last - first, options, bend);
+  go_to(end);
+  if (options.share->index == options.share->count) copy_rest(source, write);
+}
+
+void stream_share(const std::string& in, const std::string& out, const StreamOptions& options,
+                  const std::function<void(Shape&)>& bend) {
+  static const std::string expected = "a binary PLY without lists up to its points, which tasks can share";
+  const Format& from = format_for(in, options.as);
+  const Format& to = format_for(out, options.as);
+  if (from.read != read_ply) throw file_error(in, expected, from.name);
+  if (to.write != write_ply) throw file_error(out, "a PLY as the input is, which tasks can share", to.name);
+  struct stat status;
+  if (in == "-" || (stat(in.c_str(), &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)))
+    throw file_error(in, "a file on a disk, which tasks can share", "a pipe or a device");
+  Source source(in);
+  const std::span<const std::byte> seen = std::as_bytes(std::span(source.look_for_header()));
+  refuse_lfs_pointer(in, seen, from.name);
+  const PlyHeader header = parse_ply_header(in, as_text(seen));
+  if (header.encoding == PlyEncoding::Ascii) throw file_error(in, expected, "a text");
+  if (!can_stream(header)) throw file_error(in, expected, "lists");
+  if (are_same_file(in, out)) throw file_error(out, "another file than the input", "the input itself");
+  source.seek(header.size);
+  for (std::size_t e = 0; e < header.vertex; ++e) source.seek(source.at() + bytes_of_rows(source, header.elements[e]));
+  bytes_of_rows(source, header.vertices());  // no output is made for what is truncated
+  SharedFile file(out, source.size(), seen.first(header.size), options.force);
+  bend_share(source, header, file, options, bend);
+  file.commit();
+}
+
 }  // namespace
 
 WriteReport stream(const std::string& in, const std::string& out, const StreamOptions& options,
                    const std::function<void(Shape& block)>& bend) {
+  if (options.share) {
+    stream_share(in, out, options, bend);
+    return {};
+  }
   const Format& from = format_for(in, options.as);
   const Format& to = format_for(out, options.as);
   refuse_existing(out, options.force);
