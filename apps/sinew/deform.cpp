@@ -3,13 +3,18 @@
 #include <chrono>
 
 #include "apps/sinew/command.h"
+#include "apps/sinew/deform_frames.h"
 #include "apps/sinew/files.h"
 #include "apps/sinew/progress.h"
+#include "apps/sinew/task.h"
 #include "deformers/methods.h"
 #include "engine/document/edit.h"
 #include "engine/document/evaluate.h"
 #include "engine/document/pose_file.h"
 #include "engine/document/settings.h"
+#include "engine/geometry/parallel.h"
+#include "engine/io/frame_pattern.h"
+#include "engine/io/io.h"
 
 namespace sinew::app {
 
@@ -22,7 +27,7 @@ double seconds_since(Clock::time_point begin) {
 }
 
 struct Options {
-  std::string input, from, edit, report, pose;
+  std::string input, from, edit, report, pose, frames, jobs, task;
   std::vector<std::string> settings;
   Output out;
   bool strict = false;
@@ -35,13 +40,25 @@ document::Project edit_of(const Options& options) {
   return project;
 }
 
+/// A name of frames: of a numbered run, or of a format that holds many.
+bool names_frames(const std::string& path, const std::string& as) {
+  if (path.ends_with('/') || (path == "-" && as.empty())) return false;
+  return io::frame_pattern(path) || io::format_of(path, as).open_frames != nullptr;
+}
+
+/// Whether the command line speaks of frames.
+bool many_frames(const Options& options) {
+  return !options.frames.empty() || !options.task.empty() || names_frames(options.input, options.from) ||
+         (names_frames(options.out.path, options.out.as));
+}
+
 /// All outputs, before any work is done.
 void check_outputs(const Options& options) {
   if (options.input == "-" && options.edit == "-")
     throw UsageError("expected one of INPUT and --edit to be -, found both");
   const int streams = (options.out.path == "-") + (options.report == "-") + (options.pose == "-");
   if (streams > 1) throw UsageError("expected one output to be -, found " + std::to_string(streams));
-  check_output(options.out);
+  if (!many_frames(options)) check_output(options.out);
   if (!options.report.empty()) check_output_text(options.report, options.out.force);
   if (!options.pose.empty()) check_output_text(options.pose, options.out.force);
 }
@@ -71,9 +88,41 @@ int status_of(const document::Evaluation& evaluation, bool strict) {
   return status;
 }
 
+/// The frames of a sequence; pose files are for one frame.
+int run_frames(const Options& options) {
+  const Clock::time_point begin = Clock::now();
+  if (!options.pose.empty())
+    throw UsageError("--pose: expected one frame, found a sequence, whose pose changes from frame to frame");
+  const document::Project project = edit_of(options);
+  FramesWork work;
+  work.input = options.input;
+  work.from = options.from;
+  work.sequence = open_input(options.input, options.from);
+  work.frames = options.frames;
+  work.out = options.out;
+  work.strict = options.strict;
+  const auto jobs = options.jobs.empty() ? std::optional<std::uint64_t>(static_cast<std::uint64_t>(thread_count()))
+                                         : parse_number(options.jobs, 1024);
+  if (!jobs) throw UsageError("--jobs: expected a whole number from 1 to 1024, found " + sinew::quoted(options.jobs));
+  work.jobs = static_cast<int>(*jobs);
+  if (!options.task.empty()) work.share = parse_task(options.task);
+  document::Report report;
+  report.read = seconds_since(begin);
+  const int status = deform_frames(work, project, options.report.empty() ? nullptr : &report);
+  if (!options.report.empty() && status != Interrupted) {
+    const std::size_t frames = report.input.frames;
+    report.input = document::report_of(*work.sequence->load(work.sequence->frames.front()));
+    report.input.frames = frames;
+    report.total = seconds_since(begin);
+    write_output_text(options.report, report_text(report), options.out.force);
+  }
+  return status;
+}
+
 int run(const Options& options) {
   const Clock::time_point begin = Clock::now();
   check_outputs(options);
+  if (many_frames(options)) return run_frames(options);
   const document::Project project = edit_of(options);
   document::Report report;
   const std::shared_ptr<const Shape> input = read_input(options.input, options.from);
@@ -101,11 +150,20 @@ int run(const Options& options) {
 
 std::function<int()> declare_deform(Arguments& arguments) {
   const auto options = std::make_shared<Options>();
-  arguments.positional("INPUT", options->input, "File to bend, or the .conf of a scan set; - with --from");
+  arguments.positional("INPUT", options->input,
+                       "File to bend, the .conf of a scan set, or frames: name.####.obj, name.pc2; - with --from");
   arguments.option("-e,--edit", "EDIT.json", options->edit, "What to do: layers of handles and fixed points; may be -",
                    true);
-  arguments.option("-o,--output", "OUT", options->out.path,
-                   "File to write; - with --to; a folder, ending in /, takes a scan set as one file a scan", true);
+  arguments.option(
+      "-o,--output", "OUT", options->out.path,
+      "File to write, or frames as above; - with --to; a folder, ending in /, takes a scan set as one file "
+      "a scan",
+      true);
+  arguments.option("--frames", "FRAMES", options->frames, "Only these frames: 1-10, 1-48x2, 3,7,20-30");
+  arguments.option("--jobs", "N", options->jobs, "Frames at a time; without, one a core");
+  arguments.option("--task", "I/N", options->task,
+                   "The I-th of N tasks that share the frames; all of them make the same "
+                   "bytes as one run");
   arguments.options("--set", "NAME=VALUE", options->settings,
                     "A setting of every layer whose method has it, or of layer N: N.NAME=VALUE (see sinew methods)");
   arguments.option("--report", "R.json", options->report, "Write figures of the solve");

@@ -13,6 +13,7 @@
 #include "engine/geometry/error.h"
 #include "engine/io/io.h"
 #include "engine/io/output_file.h"
+#include "engine/io/sequence.h"
 
 namespace sinew::app {
 
@@ -49,6 +50,13 @@ std::shared_ptr<const Shape> read_input(const std::string& path, const std::stri
   }
   for (const std::string& note : shape->notes) message(path + ": " + note);
   return shape;
+}
+
+std::shared_ptr<const Sequence> open_input(const std::string& path, const std::string& as) {
+  Progress progress("reading " + path);
+  io::ReadOptions options;
+  options.progress = [&](double fraction) { return progress(fraction); };
+  return std::make_shared<const Sequence>(io::open_sequence(path, options, as));
 }
 
 void check_output(const Output& output) {

@@ -11,6 +11,9 @@ namespace sinew::app {
 /// Reads a shape with progress; its notes go to standard error. `as`: the format of "-", by an extension.
 std::shared_ptr<const Shape> read_input(const std::string& path, const std::string& as);
 
+/// Opens frames, or a still as one; what it reads at once with progress.
+std::shared_ptr<const Sequence> open_input(const std::string& path, const std::string& as);
+
 /// A file, a folder for the parts of a scan set (it ends in '/'), or "-".
 struct Output {
   std::string path;

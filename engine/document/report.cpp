@@ -1,6 +1,7 @@
 #include "engine/document/report.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/geometry/topology.h"
 
@@ -78,6 +79,25 @@ void write_layer(JsonWriter& out, const LayerReport& layer) {
 }
 
 }  // namespace
+
+void add_frame(LayerReport& all, const LayerReport& frame) {
+  const auto total = [](const LayerReport& r) { return r.solve.energy.empty() ? 0 : r.solve.energy.front().second; };
+  if (frame.solve.status > all.solve.status) {
+    all.solve.status = frame.solve.status;
+    all.solve.message = frame.solve.message;
+  }
+  if (total(frame) > total(all)) all.solve.energy = frame.solve.energy;
+  all.solve.iterations += frame.solve.iterations;
+  all.solve.prefactor_seconds += frame.solve.prefactor_seconds;
+  all.solve.solve_seconds += frame.solve.solve_seconds;
+  all.handle_max = std::max(all.handle_max, frame.handle_max);
+  all.handle_rms = std::max(all.handle_rms, frame.handle_rms);
+  all.quality.edge_rms = std::max(all.quality.edge_rms, frame.quality.edge_rms);
+  all.quality.edge_max = std::max(all.quality.edge_max, frame.quality.edge_max);
+  if (std::abs(frame.quality.volume_change) > std::abs(all.quality.volume_change))
+    all.quality.volume_change = frame.quality.volume_change;
+  all.skin += frame.skin;
+}
 
 InputReport report_of(const Shape& input) {
   return {representation(input), input.size(), input.faces.size(), connected_components(input).count, 1};

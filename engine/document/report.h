@@ -33,6 +33,10 @@ struct LayerReport {
   double skin = 0;   ///< moving all points once
 };
 
+/// Takes in the report of another frame of the same layer: the worst status, the largest errors and strains, the energy
+/// of the frame that has the most; iterations and seconds of all frames together; what was made once as it was.
+void add_frame(LayerReport& all, const LayerReport& frame);
+
 struct Report {
   InputReport input;
   std::vector<LayerReport> layers;
