@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/geometry/affine.h"
 
 namespace sinew {
 
@@ -36,10 +35,6 @@ Mat3 cross_matrix(const Vec3& a) {
 }
 
 }  // namespace
-
-Mat3 nearest_rotation(const Mat3& M) {
-  return polar(M).first;
-}
 
 Mat3 rotation_of(const Vec3& w) {
   const double angle = w.norm();

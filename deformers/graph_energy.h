@@ -119,8 +119,6 @@ class GraphEnergy {
   BlockMatrix A_;
 };
 
-/// The rotation nearest to M (polar decomposition, determinant +1).
-Mat3 nearest_rotation(const Mat3& M);
 /// exp of the cross-product matrix of w, an exact rotation to rounding.
 Mat3 rotation_of(const Vec3& w);
 

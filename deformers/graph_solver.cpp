@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/geometry/rotation.h"
+
 namespace sinew {
 
 namespace {

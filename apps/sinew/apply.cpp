@@ -1,9 +1,12 @@
+#include <utility>
+
 #include "apps/sinew/command.h"
 #include "apps/sinew/files.h"
 #include "apps/sinew/interrupt.h"
 #include "apps/sinew/progress.h"
 #include "deformers/methods.h"
 #include "engine/document/pose_file.h"
+#include "engine/geometry/skin.h"
 #include "engine/io/bytes.h"
 #include "engine/io/stream.h"
 
@@ -36,8 +39,13 @@ int run(const Options& options) {
   {
     const HoldInterrupts hold;
     Progress progress("bending " + options.input);
+    bool told = false;
     stream.progress = [&](double fraction) { return progress(fraction); };
-    report = io::stream(options.input, options.out.path, stream, [&](Shape& block) { block = pose.apply(block); });
+    report = io::stream(options.input, options.out.path, stream, [&](Shape& block) {
+      if (!std::exchange(told, true))
+        for (const std::string& left : not_bent(block)) message(options.input + ": " + left);
+      block = pose.apply(block);
+    });
   }
   for (const std::string& lost : report.lost) message(options.out.path + ": " + lost);
   return Ok;

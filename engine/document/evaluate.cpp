@@ -40,13 +40,6 @@ void measure(const Deformer& deformer, const LayerResult& result, const Shape& r
   out.quality = quality_of(rest, bent);
 }
 
-/// Whether a shape has attributes that bend by the derivative of the map.
-bool needs_gradients(const Shape& shape) {
-  return std::any_of(shape.attributes.begin(), shape.attributes.end(), [](const Attribute& attribute) {
-    return attribute.kind == Kind::Vector || attribute.kind == Kind::Velocity || attribute.kind == Kind::Quaternion;
-  });
-}
-
 bool has_velocities(const Shape& shape) {
   return std::any_of(shape.attributes.begin(), shape.attributes.end(),
                      [](const Attribute& attribute) { return attribute.kind == Kind::Velocity; });
@@ -85,6 +78,16 @@ std::vector<Pose> rates_of(Workspace& workspace, std::span<const Layer> layers, 
   return out;
 }
 
+/// The layer's weights; with gradients where attributes of `rest` bend by them and they are a function of space.
+std::shared_ptr<const SkinWeights> weights_to_bend(const Deformer& deformer, const LayerResult& result,
+                                                   const Shape& rest) {
+  if (!needs_gradients(rest)) return result.weights;
+  auto bound = std::make_shared<SkinWeights>(deformer.bind(rest.positions, Gradients::Yes));
+  // Gradients of other weights (points may be bound along the surface) say nothing about these.
+  const bool same = bound->maps == result.weights->maps && bound->weights == result.weights->weights;
+  return same ? bound : result.weights;
+}
+
 }  // namespace
 
 Evaluation evaluate(const std::shared_ptr<const Shape>& input, std::span<const Layer> layers,
@@ -113,14 +116,14 @@ Evaluation evaluate(Workspace& workspace, std::span<const Layer> layers, int fra
     report.solve = result.report;
     report.counts = deformer.counts();
     report.notes = deformer.notes();
-    report.build = result.build_seconds;
-    const SkinWeights* weights = result.weights.get();
-    SkinWeights with_gradients;
-    if (by_place && needs_gradients(*out.shape)) {
-      with_gradients = deformer.bind(out.shape->positions, Gradients::Yes);
-      weights = &with_gradients;
+    if (out.reports.empty()) {
+      const std::vector<std::string> left = not_bent(*input);
+      report.notes.insert(report.notes.end(), left.begin(), left.end());
     }
-    const auto bent = std::make_shared<Shape>(skin(*out.shape, *weights, *result.pose));
+    report.build = result.build_seconds;
+    const auto weights = by_place ? weights_to_bend(deformer, result, *out.shape) : result.weights;
+    const Pose* rate = rates.empty() ? nullptr : &rates[i];
+    const auto bent = std::make_shared<Shape>(skin(*out.shape, *weights, *result.pose, rate));
     if (workspace.stream()) {
       const std::shared_ptr<const Shape> rest = workspace.rest(result.layer);
       std::vector<Vec3> moved(rest->size());

@@ -87,9 +87,10 @@ PoseApplier::PoseApplier(const SolvedEdit& edit, std::span<const Method> methods
 Shape PoseApplier::apply(const Shape& shape) const {
   Shape out = shape;
   std::vector<Vec3> points(shape.size());
+  const Gradients gradients = needs_gradients(shape) ? Gradients::Yes : Gradients::No;
   for (const LayerMaps& layer : layers_) {
     for (std::size_t i = 0; i < points.size(); ++i) points[i] = out.positions[i] + offset_;
-    const SkinWeights weights = layer.method->bind(layer.binding, points, Gradients::No);
+    const SkinWeights weights = layer.method->bind(layer.binding, points, gradients);
     const auto highest = std::max_element(weights.maps.begin(), weights.maps.end());
     if (highest != weights.maps.end() && *highest >= layer.maps.size())
       throw InputError("expected more than " + std::to_string(*highest) +

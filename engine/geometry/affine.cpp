@@ -1,14 +1,13 @@
 #include "engine/geometry/affine.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
+
+#include "engine/geometry/rotation.h"
 
 namespace sinew {
 
 std::pair<Mat3, Mat3> polar(const Mat3& M) {
-  const Eigen::JacobiSVD<Mat3> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Vec3 sign(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
-  const Mat3 R = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+  const Mat3 R = nearest_rotation(M);
   return {R, R.transpose() * M};
 }
 

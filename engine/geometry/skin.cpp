@@ -1,9 +1,10 @@
 #include "engine/geometry/skin.h"
 
 #include <Eigen/Geometry>
-#include <cmath>
 
 #include "engine/geometry/parallel.h"
+#include "engine/geometry/skin_attributes.h"
+#include "engine/geometry/skin_maps.h"
 
 namespace sinew {
 
@@ -11,67 +12,11 @@ namespace {
 
 constexpr std::size_t block = 4096;  ///< points of one parallel block
 
-/// [A - I | t] column by column, padded to whole vectors of four.
-using Padded = Eigen::Matrix<double, 4, 4>;
-
-std::vector<Padded> displacements(const Pose& pose) {
-  std::vector<Padded> out(pose.size());
-  for (std::size_t j = 0; j < pose.size(); ++j) {
-    out[j].setZero();
-    out[j].topRows<3>() = pose[j] - identity_map();
-  }
-  return out;
-}
-
-/// Sum of the maps of row i, in the row's order.
-Padded blend(const SkinWeights& weights, const std::vector<Padded>& D, std::size_t i) {
-  Padded sum = Padded::Zero();
-  for (std::uint64_t e = weights.offsets[i]; e < weights.offsets[i + 1]; ++e)
-    sum += static_cast<double>(weights.weights[e]) * D[weights.maps[e]];
-  return sum;
-}
-
-Vec3 row(const Attribute& attribute, std::size_t i) {
-  return {attribute.number(i, 0), attribute.number(i, 1), attribute.number(i, 2)};
-}
-
-bool bends(const Attribute& attribute) {
-  const bool kind = attribute.kind == Kind::Point || attribute.kind == Kind::Vector ||
-                    attribute.kind == Kind::Velocity || attribute.kind == Kind::Normal;
-  return kind && attribute.components == 3;
-}
-
-/// Value i of an attribute under the map p -> M p + t (t with the shape's origin folded in).
-Vec3 bend(Kind kind, const Mat3& M, const Vec3& t, const Vec3& value) {
-  if (kind == Kind::Normal) return skin_normal(M, value);
-  return kind == Kind::Point ? Vec3(M * value + t) : Vec3(M * value);
-}
-
-/// `in` and `out` are the same attribute before and after.
-void bend_attribute(const Attribute& in, const Shape& rest, const SkinWeights& weights, const std::vector<Padded>& D,
-                    Attribute& out) {
-  parallel_for(in.count(), block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t first = in.per_point() ? 0 : in.point_offsets[i];
-      const std::size_t last = in.per_point() ? 1 : in.point_offsets[i + 1];
-      Padded sum = Padded::Zero();
-      for (std::size_t k = first; k < last; ++k) sum += blend(weights, D, in.per_point() ? i : in.points[k]);
-      if (last == first || sum.isZero(0)) continue;  // identity maps: the value keeps its bits
-      sum /= static_cast<double>(last - first);
-      const Mat3 M = Mat3::Identity() + sum.topLeftCorner<3, 3>();
-      const Vec3 t = sum.topRightCorner<3, 1>() + rest.origin - M * rest.origin;
-      const Vec3 value = bend(in.kind, M, t, row(in, i));
-      if (!value.allFinite()) continue;
-      for (int c = 0; c < 3; ++c) out.set_number(i, c, value[c]);
-    }
-  });
-}
-
 }  // namespace
 
 void skin_points(const SkinWeights& weights, const Pose& pose, std::span<const Vec3> in, std::span<Vec3> out) {
   CHECK(weights.size() == in.size() && out.size() == in.size(), weights.size(), in.size(), out.size());
-  const std::vector<Padded> D = displacements(pose);
+  const std::vector<Padded> D = padded(pose, identity_map());
   parallel_for(in.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3 p = in[i];
@@ -90,7 +35,7 @@ void skin_points(const SkinWeights& weights, const Pose& pose, std::span<const V
 
 void blend_matrices(const SkinWeights& weights, const Pose& pose, std::size_t first, std::span<Mat3> out) {
   CHECK(first + out.size() <= weights.size(), first, out.size(), weights.size());
-  const std::vector<Padded> D = displacements(pose);
+  const std::vector<Padded> D = padded(pose, identity_map());
   parallel_for(out.size(), block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
       out[i] = Mat3::Identity() + blend(weights, D, first + i).topLeftCorner<3, 3>();
@@ -105,12 +50,10 @@ Vec3 skin_normal(const Mat3& M, const Vec3& n) {
   return length > 0 ? Vec3(turned * (n.norm() / length)) : n;
 }
 
-Shape skin(const Shape& rest, const SkinWeights& weights, const Pose& pose) {
+Shape skin(const Shape& rest, const SkinWeights& weights, const Pose& pose, const Pose* rate) {
   Shape out = rest;
   skin_points(weights, pose, rest.positions, out.positions);
-  const std::vector<Padded> D = displacements(pose);
-  for (std::size_t a = 0; a < rest.attributes.size(); ++a)
-    if (bends(rest.attributes[a])) bend_attribute(rest.attributes[a], rest, weights, D, out.attributes[a]);
+  bend_attributes(rest, weights, pose, rate, out);
   return out;
 }
 

@@ -19,8 +19,17 @@ void blend_matrices(const SkinWeights& weights, const Pose& pose, std::size_t fi
 /// transpose]. Where M is singular along n, n itself.
 Vec3 skin_normal(const Mat3& M, const Vec3& n);
 
-/// `rest` bent: positions and every attribute whose kind bends; faces, other attributes and the file's content are
-/// those of rest. A value whose points all have identity maps keeps its bits. weights.size() == rest.size().
-Shape skin(const Shape& rest, const SkinWeights& weights, const Pose& pose);
+/// `rest` bent: positions and every attribute whose kind bends (skin_attributes.h); faces, other attributes and the
+/// file's content are those of rest. A value whose points all have identity maps keeps its bits.
+/// rate: d(map)/dt, a second, one for each map of the pose; null where the maps do not change with time. Only
+/// velocities ask for it. weights.size() == rest.size().
+Shape skin(const Shape& rest, const SkinWeights& weights, const Pose& pose, const Pose* rate = nullptr);
+
+/// Whether an attribute bends by the derivative of the map by position: then skin() is exact only where the weights
+/// come from bind(points, Gradients::Yes).
+bool needs_gradients(const Shape& shape);
+
+/// What skin() leaves as it is although its kind bends, one sentence each.
+std::vector<std::string> not_bent(const Shape& shape);
 
 }  // namespace sinew

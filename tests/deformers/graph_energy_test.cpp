@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <random>
 
+#include "engine/geometry/rotation.h"
 #include "tests/deformers/dense.h"
 
 namespace sinew {

@@ -53,8 +53,9 @@ TEST(Frames, AnAnswerDoesNotDependOnWhatWasSolvedBefore) {
   for (int frame = 1; frame <= 9; ++frame) forward[frame] = evaluate(one, layers, frame).shape->positions;
   for (int frame = 9; frame >= 1; --frame) backward[frame] = evaluate(other, layers, frame).shape->positions;
   for (int frame = 1; frame <= 9; ++frame) {
-    EXPECT_EQ(forward[frame], backward[frame]) << frame;
-    if (frame % 3 == 2) EXPECT_EQ(forward[frame], alone(input, layers, frame)) << frame;
+    EXPECT_TRUE(forward[frame] == backward[frame]) << frame;
+    if (frame % 3 != 2) continue;
+    EXPECT_TRUE(forward[frame] == alone(input, layers, frame)) << frame;
   }
   // What such a check would see: a solve that begins at another frame's answer ends elsewhere in the last digits.
   Workspace warm(input, methods());
@@ -65,7 +66,7 @@ TEST(Frames, AnAnswerDoesNotDependOnWhatWasSolvedBefore) {
   const UpdateResult rough = warm.update(layers, options);
   std::vector<Vec3> bent(input->load(6)->size());
   skin_points(*rough.layers[0].weights, *rough.layers[0].pose, input->load(6)->positions, bent);
-  EXPECT_NE(bent, forward[6]);
+  EXPECT_FALSE(bent == forward[6]);
 }
 
 TEST(Frames, AtItsKeysAHandleIsWhereTheyPutIt) {
@@ -88,7 +89,7 @@ TEST(Frames, AnEditWithoutKeysSpreadsOverTheClipAndFixedPointsStayOnTheAnimation
   std::vector<Layer> layers{tube_layer()};
   layers[0].handles[0].motion.move = Vec3(0, 0, 0.3);
   for (const int frame : input->frames) {
-    const std::vector<Vec3>& rest = input->load(frame)->positions;
+    const std::vector<Vec3> rest = input->load(frame)->positions;
     const std::vector<Vec3> bent = alone(input, layers, frame);
     EXPECT_EQ(bent.front(), rest.front()) << frame;
     EXPECT_LT((bent.back() - rest.back() - Vec3(0, 0, 0.3)).norm(), 0.015) << frame;
@@ -110,12 +111,13 @@ TEST(Frames, WhatIsNoMeshAnimationIsRefusedWithItsFrame) {
   std::vector<Layer> layers{tube_layer()};
   layers[0].handles[0].points.what = SelectIndices{Shared<Index>({0})};
   layers[0].fixed.clear();
-  EXPECT_EQ(refusal(jet, layers, 5).substr(0, 57), "frame 5: expected 8 points as in frame 1, found 40; a lay");
+  EXPECT_EQ(refusal(jet, layers, 5).substr(0, 57), "frame 4: expected 8 points as in frame 1, found 32; a lay");
   const auto tube = std::make_shared<const Sequence>(waving_tube(3));
   EXPECT_EQ(refusal(tube, layers, 4), "frame: expected a frame of the input (1-3), found 4");
   layers[0].keys = {key(7, Vec3(0, 0, 0))};
   EXPECT_EQ(refusal(tube, layers, 1), "layer: expected a frame of the input (1-3), found 7");
   layers = {path_layer(2)};
+  for (Selection* selection : {&layers[0].fixed[0], &layers[0].handles[0].points}) selection->frame = 12;
   layers[0].path->id = 4711;
   EXPECT_EQ(refusal(jet, layers, 5),
             "path: expected a particle that is there in two or more of the sampled frames, found the id in 0 of them");
@@ -134,7 +136,7 @@ TEST(Frames, AStreamIsBentWhereverItsParticlesAre) {
     EXPECT_EQ(bent.shape->find("id")->values, rest->find("id")->values);
     for (std::size_t i = 0; i < rest->size(); ++i)
       highest = std::max(highest, (bent.shape->positions[i] - rest->positions[i]).z());
-    EXPECT_EQ(bent.shape->positions, alone(input, layers, frame));
+    EXPECT_TRUE(bent.shape->positions == alone(input, layers, frame));
   }
   EXPECT_GT(highest, 0.8);
   EXPECT_LT(highest, 1.3);
