@@ -181,4 +181,10 @@ double reflectance(const Vec3& p, int material) {
   return 0.36 + 0.22 * cells.number;
 }
 
+Vec3 skin_color(double light) {
+  const Vec3 black(24, 20, 18), brown(146, 88, 48), cream(238, 220, 186);
+  const double t = std::clamp(light / 0.45, 0.0, 1.0), u = std::clamp((light - 0.45) / 0.45, 0.0, 1.0);
+  return black + t * (brown - black) + u * (cream - brown);
+}
+
 }  // namespace sinew::samples

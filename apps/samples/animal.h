@@ -14,4 +14,7 @@ enum class Material { Coat, Pale, Dark, Black };
 /// pale lower legs and muzzle, some black spots that a scanner does not see.
 double reflectance(const Vec3& p, int material);
 
+/// The colour of skin that gives back this much light: from black over brown to cream, each 0 to 255.
+Vec3 skin_color(double light);
+
 }  // namespace sinew::samples

@@ -67,11 +67,23 @@ constexpr const char* cylinder = R"({ "sinew": 1,
   } ] }
 )";
 
+/// The giraffe of splats bows: its head goes down and forward along an arc about the root of its neck.
+constexpr const char* splats = R"({ "sinew": 1,
+  "layers": [ {
+    "name": "Bow",
+    "method": "graph",
+    "settings": { "nodes": 226, "neighbours": 4 },
+    "fixed": [ { "box": [[-1, -0.1, -1], [1, 0.75, 1]] } ],
+    "handles": [ { "points": { "box": [[0.5, 1.83, -0.3], [0.95, 2.3, 0.3]] },
+                   "rotate": { "axis": [0.3, 0.2, -1], "degrees": 70, "about": [0.26, 1.1, 0] }, "move": [0, 0, 0] } ]
+  } ] }
+)";
+
 }  // namespace
 
 std::string edit_of(const std::string& sample) {
-  static const std::map<std::string, const char*> edits{
-      {"scan", scan}, {"plane", plane}, {"bar", bar}, {"cactus", cactus}, {"cylinder", cylinder}};
+  static const std::map<std::string, const char*> edits{{"scan", scan},     {"plane", plane},       {"bar", bar},
+                                                        {"cactus", cactus}, {"cylinder", cylinder}, {"splats", splats}};
   const auto found = edits.find(sample);
   CHECK(found != edits.end(), sample);
   return found->second;

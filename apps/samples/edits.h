@@ -5,7 +5,7 @@
 
 namespace sinew::samples {
 
-/// The edit of "scan", "plane", "bar", "cactus" or "cylinder".
+/// The edit of "scan", "plane", "bar", "cactus", "cylinder" or "splats".
 std::string edit_of(const std::string& sample);
 
 }  // namespace sinew::samples

@@ -10,6 +10,7 @@
 #include "apps/samples/edits.h"
 #include "apps/samples/meshes.h"
 #include "apps/samples/scanner.h"
+#include "apps/samples/splats.h"
 #include "engine/geometry/error.h"
 #include "engine/io/io.h"
 
@@ -17,6 +18,7 @@ namespace sinew::samples {
 namespace {
 
 constexpr std::size_t scan_points = 79'000;
+constexpr std::size_t splat_count = 30'000;
 
 struct Options {
   std::string folder;
@@ -38,6 +40,7 @@ constexpr Sample samples[] = {
     {"bar", "obj", bar, "a bar, twisted"},
     {"cactus", "obj", cactus, "a cactus, bent"},
     {"cylinder", "obj", cylinder, "a cylinder, bent"},
+    {"splats", "ply", [] { return sample_splats(splat_count); }, "the giraffe as Gaussian splats, its neck bowed"},
     {"large", "ply", nullptr, "the giraffe with --points points; only where it is named"},
 };
 

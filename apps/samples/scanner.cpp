@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "apps/samples/animal.h"
+#include "apps/samples/attributes.h"
 #include "apps/samples/random.h"
 #include "engine/geometry/parallel.h"
 
@@ -199,28 +200,10 @@ std::vector<std::vector<Measured>> scan_all(double pitch, std::uint64_t seed) {
   return scans;
 }
 
-/// The colour of skin that gives back this much light: from black over brown to cream, each 0 to 255.
-Vec3 skin_color(double light) {
-  const Vec3 black(24, 20, 18), brown(146, 88, 48), cream(238, 220, 186);
-  const double t = std::clamp(light / 0.45, 0.0, 1.0), u = std::clamp((light - 0.45) / 0.45, 0.0, 1.0);
-  return black + t * (brown - black) + u * (cream - brown);
-}
-
 std::size_t count_of(const std::vector<std::vector<Measured>>& scans) {
   std::size_t count = 0;
   for (const auto& scan : scans) count += scan.size();
   return count;
-}
-
-Attribute make_attribute(const char* name, std::vector<std::string> fields, Kind kind, Type type, std::size_t count) {
-  Attribute attribute;
-  attribute.name = name;
-  attribute.components = static_cast<int>(fields.size());
-  attribute.fields = std::move(fields);
-  attribute.kind = kind;
-  attribute.type = type;
-  attribute.values.resize(count * attribute.row_size());
-  return attribute;
 }
 
 }  // namespace

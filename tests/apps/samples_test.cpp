@@ -9,10 +9,12 @@
 #include <map>
 #include <memory>
 
+#include "apps/samples/animal.h"
 #include "apps/samples/dense.h"
 #include "apps/samples/edits.h"
 #include "apps/samples/meshes.h"
 #include "apps/samples/scanner.h"
+#include "apps/samples/splats.h"
 #include "engine/document/edit.h"
 #include "engine/document/selection.h"
 #include "engine/geometry/parallel.h"
@@ -103,6 +105,7 @@ TEST(Samples, AreTheSameOnEveryMachine) {
   EXPECT_EQ(hash_of(bumpy_plane()), 10467371887320229418u);
   EXPECT_EQ(hash_of(cylinder()), 1120494238152372246u);
   EXPECT_EQ(hash_of(cactus()), 16943169271759878298u);
+  EXPECT_EQ(hash_of(sample_splats(30'000)), 5134577945623130890u);
 }
 
 TEST(Samples, MeshesHaveTheCountsOfTheirCases) {
@@ -130,11 +133,9 @@ TEST(Samples, MeshesAreClosedAndTurnedOutwards) {
 }
 
 TEST(Samples, EditsTakeHoldOfTheirShapes) {
-  const std::map<std::string, Shape> shapes{{"scan", sample_animal(79'000)},
-                                            {"plane", bumpy_plane()},
-                                            {"bar", bar()},
-                                            {"cactus", cactus()},
-                                            {"cylinder", cylinder()}};
+  const std::map<std::string, Shape> shapes{
+      {"scan", sample_animal(79'000)}, {"plane", bumpy_plane()},         {"bar", bar()}, {"cactus", cactus()},
+      {"cylinder", cylinder()},        {"splats", sample_splats(30'000)}};
   for (const auto& [name, shape] : shapes) {
     SCOPED_TRACE(name);
     const document::Project edit = document::parse_edit(name + ".edit.json", edit_of(name));
@@ -169,6 +170,63 @@ TEST(Samples, FilesComeBackAsTheyWere) {
     for (std::size_t i = 0; i < shape.attributes.size(); ++i) EXPECT_EQ(back->attributes[i], shape.attributes[i]);
     EXPECT_EQ(back->faces.points, shape.faces.points);
   }
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Samples, SplatsAreDiscsOnTheSkin) {
+  set_thread_count(1);
+  const Shape one = sample_splats(4000);
+  set_thread_count(3);
+  const Shape shape = sample_splats(4000);
+  set_thread_count(2);
+  EXPECT_EQ(hash_of(one), hash_of(shape));
+  EXPECT_TRUE(all_finite(shape));
+  const Attribute &rot = *shape.find("rot"), &scale = *shape.find("scale"), &rest = *shape.find("f_rest");
+  std::size_t shining = 0;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    const Vec3& p = shape.positions[i];
+    const Implicit::Parts parts = animal().near_point(p, 0.02);
+    ASSERT_LT(std::abs(animal().distance(p, parts)), 2e-5);
+    const Eigen::Quaterniond q(rot.number(i, 0), rot.number(i, 1), rot.number(i, 2), rot.number(i, 3));
+    ASSERT_NEAR(q.norm(), 1, 1e-6);
+    ASSERT_NEAR((q * Vec3::UnitZ()).dot(animal().normal(p, parts)), 1, 1e-4) << "the third axis is the normal";
+    ASSERT_LT(scale.number(i, 2), scale.number(i, 1) - 2) << "flat";
+    shining += rest.number(i, 0) != 0;
+  }
+  EXPECT_GT(shining, shape.size() / 4);
+}
+
+TEST(Samples, ASplatFileHasTheOrderThatReadersByPositionExpect) {
+  const auto folder = std::filesystem::temp_directory_path() / ("sinew-splats-test-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const std::string path = folder / "splats.ply", again = folder / "again.ply";
+  io::write(path, sample_splats(500));
+  std::string expected = "ply\nformat binary_little_endian 1.0\nelement vertex 500\n";
+  const auto property = [&](const std::string& name, int count = -1) {
+    for (int i = 0; i < std::max(count, 1); ++i)
+      expected += "property float " + name + (count < 0 ? "" : std::to_string(i)) + "\n";
+  };
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz"}) property(name);
+  property("f_dc_", 3);
+  property("f_rest_", 45);
+  property("opacity");
+  property("scale_", 3);
+  property("rot_", 4);
+  expected += "end_header\n";
+  const std::vector<std::byte> bytes = io::load_bytes(path);
+  ASSERT_EQ(bytes.size(), expected.size() + 500 * 62 * sizeof(float));
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes.data()), expected.size()), expected);
+
+  // Read and bent (here: one value changed), the rest of the bytes are those of the file.
+  Shape shape = *io::read(path);
+  io::write(again, shape);
+  EXPECT_TRUE(io::load_bytes(again) == bytes);
+  shape.find("rot")->set_number(7, 0, 2);
+  io::write(again, shape, true);
+  std::vector<std::byte> changed = bytes;
+  const float two = 2;
+  std::memcpy(&changed[expected.size() + (7 * 62 + 58) * sizeof(float)], &two, sizeof(two));
+  EXPECT_TRUE(io::load_bytes(again) == changed);
   std::filesystem::remove_all(folder);
 }
 
