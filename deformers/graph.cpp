@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "deformers/graph_influence.h"
 #include "deformers/graph_nodes.h"
 #include "deformers/graph_solver.h"
 #include "deformers/graph_weights.h"
@@ -56,12 +57,11 @@ std::vector<Index> nearest_points(const Shape& shape, std::span<const Vec3> to) 
 class GraphDeformer final : public Deformer {
  public:
   GraphDeformer(std::shared_ptr<const Shape> rest, const GraphOptions& options, std::vector<Vec3> nodes,
-                NearestTree tree, SkinWeights weights, std::vector<std::string> notes)
+                GraphInfluence influence, SkinWeights weights, std::vector<std::string> notes)
       : rest_(std::move(rest)),
-        neighbours_(options.neighbours),
         unit_(normalization_of(bounds_of(rest_->positions))),
         nodes_(std::move(nodes)),
-        tree_(std::move(tree)),
+        influence_(std::move(influence)),
         weights_(std::move(weights)),
         notes_(std::move(notes)),
         solver_(normalised(nodes_), influence_edges(weights_, nodes_.size()),
@@ -71,7 +71,7 @@ class GraphDeformer final : public Deformer {
 
   const SkinWeights& weights() const override { return weights_; }
   SkinWeights bind(std::span<const Vec3> points, Gradients gradients) const override {
-    return node_weights(tree_, neighbours_, points, gradients);
+    return influence_.bind(points, gradients);
   }
   const Pose& pose() const override { return pose_; }
   std::vector<double> map_energy() const override { return solver_.node_energy(); }
@@ -86,7 +86,7 @@ class GraphDeformer final : public Deformer {
       if (moved.allFinite()) nodes_[j] += moved;
     }
     rest_ = std::move(rest);
-    tree_ = NearestTree(nodes_);
+    influence_.follow(nodes_, *rest_);
     solver_.move_nodes(normalised(nodes_));
     prepared_ = false;
     publish();
@@ -145,11 +145,7 @@ class GraphDeformer final : public Deformer {
     return out;
   }
 
-  std::vector<Table> binding() const override {
-    Table nodes{"nodes", 3, {}};
-    for (const Vec3& g : nodes_) nodes.values.insert(nodes.values.end(), g.data(), g.data() + 3);
-    return {std::move(nodes), {"neighbours", 1, {static_cast<double>(neighbours_)}}};
-  }
+  std::vector<Table> binding() const override { return influence_.tables(); }
 
  private:
   std::vector<Vec3> normalised(const std::vector<Vec3>& points) const {
@@ -193,10 +189,9 @@ class GraphDeformer final : public Deformer {
   }
 
   std::shared_ptr<const Shape> rest_;
-  int neighbours_;
   Normalization unit_;
   std::vector<Vec3> nodes_;
-  NearestTree tree_;
+  GraphInfluence influence_;
   SkinWeights weights_;
   std::vector<std::string> notes_;
   GraphSolver solver_;
@@ -210,6 +205,14 @@ const std::vector<Setting>& graph_settings() {
   static const std::vector<Setting> settings = {
       {"nodes", 250, 1, 100000, "", "How many nodes the graph has; 200 to 300 pose a whole body.", true, {}},
       {"neighbours", 4, 1, 32, "", "How many nodes a point follows; 8 smooths over a regular graph.", true, {}},
+      {"distance",
+       0,
+       0,
+       1,
+       "",
+       "How far a node is from a point: straight, or along the surface, which keeps apart what only lies side by side.",
+       false,
+       {"straight", "surface"}},
       {"sampling",
        0,
        0,
@@ -247,6 +250,8 @@ std::unique_ptr<Deformer> make(std::shared_ptr<const Shape> rest, const Settings
   GraphOptions options;
   options.nodes = static_cast<int>(value("nodes"));
   options.neighbours = static_cast<int>(value("neighbours"));
+  options.surface = value("distance") == 1;
+  options.cuts.assign(wishes.cuts.begin(), wishes.cuts.end());
   options.simplify = value("sampling") == 1;
   options.seed = static_cast<std::uint64_t>(value("seed"));
   options.w_rot = value("rotation");
@@ -259,22 +264,7 @@ std::unique_ptr<Deformer> make(std::shared_ptr<const Shape> rest, const Settings
 
 SkinWeights bind_from_tables(const std::vector<Deformer::Table>& binding, std::span<const Vec3> points,
                              Gradients gradients) {
-  const Deformer::Table *nodes = nullptr, *neighbours = nullptr;
-  for (const Deformer::Table& table : binding) {
-    if (table.name == "nodes" && table.columns == 3) nodes = &table;
-    if (table.name == "neighbours" && table.columns == 1 && table.values.size() == 1) neighbours = &table;
-  }
-  if (nodes == nullptr || nodes->values.empty() || nodes->values.size() % 3 != 0)
-    throw InputError("expected a table \"nodes\" of three columns, found none");
-  if (neighbours == nullptr || !(neighbours->values[0] >= 1 && neighbours->values[0] <= 1000))
-    throw InputError("expected a table \"neighbours\" with one number from 1 to 1000, found none");
-  std::vector<Vec3> g;
-  for (std::size_t i = 0; i < nodes->values.size(); i += 3) {
-    g.emplace_back(nodes->values[i], nodes->values[i + 1], nodes->values[i + 2]);
-    if (!g.back().allFinite())
-      throw InputError("table \"nodes\": expected finite numbers, found row " + std::to_string(i / 3));
-  }
-  return node_weights(NearestTree(g), static_cast<int>(neighbours->values[0]), points, gradients);
+  return GraphInfluence::from_tables(binding).bind(points, gradients);
 }
 
 }  // namespace
@@ -284,15 +274,12 @@ std::unique_ptr<Deformer> make_graph_deformer(std::shared_ptr<const Shape> rest,
   std::vector<std::string> notes;
   std::vector<Vec3> nodes = choose_nodes(*rest, options, notes);
   if (progress && !progress(0.2)) return nullptr;
-  NearestTree tree(nodes);
-  bool cancelled = false;
-  SkinWeights weights = node_weights(tree, options.neighbours, rest->positions, Gradients::No, [&](double done) {
-    cancelled = progress && !progress(0.2 + 0.8 * done);
-    return !cancelled;
-  });
-  if (cancelled) return nullptr;
-  return std::make_unique<GraphDeformer>(std::move(rest), options, std::move(nodes), std::move(tree),
-                                         std::move(weights), std::move(notes));
+  GraphInfluence influence(nodes, {options.neighbours, options.surface, options.cuts});
+  std::optional<SkinWeights> weights =
+      influence.bind_shape(*rest, notes, [&](double done) { return !progress || progress(0.2 + 0.8 * done); });
+  if (!weights) return nullptr;
+  return std::make_unique<GraphDeformer>(std::move(rest), options, std::move(nodes), std::move(influence),
+                                         std::move(*weights), std::move(notes));
 }
 
 Method graph_method() {

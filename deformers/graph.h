@@ -16,11 +16,13 @@ namespace sinew {
 struct GraphOptions {
   int nodes = 250;        ///< wanted count
   int neighbours = 4;     ///< k of eq. 4
+  bool surface = false;   ///< influence by distance along the surface (graph_influence.h) instead of straight
   bool simplify = false;  ///< nodes by simplification of the faces instead of by sampling
   std::uint64_t seed = 0;
   double w_rot = 1, w_reg = 10, w_con = 100;
   bool plain = false;        ///< the paper's Gauss-Newton from the start, a new factor each iteration: the reference
   std::vector<Index> given;  ///< points of the shape to be the nodes; empty: chosen
+  std::vector<Cut> cuts;     ///< no influence passes through these
 };
 
 /// Throws InputError where the shape has no finite point or a given node is not one. Null where progress said false.

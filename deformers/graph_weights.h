@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/geometry/curtains.h"
 #include "engine/geometry/nearest.h"
 #include "engine/geometry/skin_weights.h"
 
@@ -17,8 +18,15 @@ namespace sinew {
 /// order of distance; weights of zero are left out. Gradients are those of the formula; at a node, where
 /// |v - g_j| has none, that distance is taken as constant. `progress` (0..1) may return false: the result is then
 /// empty.
+///
+/// A node behind a curtain has no influence: the k + 1 nearest are then those that are not. A point that is cut off
+/// from every node follows the nearest one; `cut_off`, if given, counts those points.
 SkinWeights node_weights(const NearestTree& nodes, int k, std::span<const Eigen::Vector3d> points, Gradients gradients,
-                         const std::function<bool(double)>& progress = {});
+                         const std::function<bool(double)>& progress = {}, const Curtains& curtains = {},
+                         std::size_t* cut_off = nullptr);
+
+/// Eq. 4 for one point with its k + 1 nearest nodes' distances (ascending); writes k weights that sum to one.
+void weights_of(const double* distance, int k, double* w);
 
 /// An edge (low, high), ascending, between any two nodes that influence one common point.
 std::vector<std::pair<std::uint32_t, std::uint32_t>> influence_edges(const SkinWeights& weights, std::size_t nodes);

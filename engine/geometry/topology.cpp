@@ -3,68 +3,13 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "engine/geometry/nearest.h"
+#include "engine/geometry/union_find.h"
 
 namespace sinew {
 
 namespace {
-
-/// Union-find that keeps the lowest point of a set as its root, so that numbering does not depend on the order of
-/// joins.
-class Sets {
- public:
-  explicit Sets(std::size_t n) : parent_(n) { std::iota(parent_.begin(), parent_.end(), Index{0}); }
-
-  Index root(Index i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Index a, Index b) {
-    a = root(a);
-    b = root(b);
-    if (a < b) parent_[b] = a;
-    if (b < a) parent_[a] = b;
-  }
-
- private:
-  std::vector<Index> parent_;
-};
-
-/// The definition for points without faces (topology.h).
-void join_near_points(std::span<const Vec3> positions, Sets& sets) {
-  constexpr int k = 9;  // 8 and the point itself
-  std::vector<Index> finite;
-  std::vector<Vec3> points;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    if (!positions[i].allFinite()) continue;
-    finite.push_back(static_cast<Index>(i));
-    points.push_back(positions[i]);
-  }
-  const NearestTree tree(points);
-  std::vector<Index> near(points.size() * k);
-  std::vector<double> distance(points.size() * k);
-  tree.nearest(points, k, near, distance);
-
-  std::vector<double> gaps;  // to the nearest point at another place: duplicates say nothing of the spacing
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t n = 0; n < k; ++n)
-      if (const double d = distance[i * k + n]; d > 0 && std::isfinite(d)) {
-        gaps.push_back(d);
-        break;
-      }
-  double reach = 0;
-  if (!gaps.empty()) {
-    const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
-    std::nth_element(gaps.begin(), middle, gaps.end());
-    reach = 4 * *middle;
-  }
-  for (std::size_t i = 0; i < points.size(); ++i)
-    for (std::size_t n = 0; n < k; ++n)
-      if (const Index j = near[i * k + n]; j != NearestTree::none && distance[i * k + n] <= reach)
-        sets.join(finite[i], finite[j]);
-}
 
 double edge_length(std::span<const Vec3> p, const std::pair<Index, Index>& edge) {
   return (p[edge.second] - p[edge.first]).norm();
@@ -96,9 +41,42 @@ double volume_of(std::span<const Vec3> p, std::span<const Index> triangles) {
 
 }  // namespace
 
+void join_near_points(std::span<const Vec3> positions, const std::function<void(Index, Index)>& join) {
+  constexpr int k = 9;  // 8 and the point itself
+  std::vector<Index> finite;
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    if (!positions[i].allFinite()) continue;
+    finite.push_back(static_cast<Index>(i));
+    points.push_back(positions[i]);
+  }
+  const NearestTree tree(points);
+  std::vector<Index> near(points.size() * k);
+  std::vector<double> distance(points.size() * k);
+  tree.nearest(points, k, near, distance);
+
+  std::vector<double> gaps;  // to the nearest point at another place: duplicates say nothing of the spacing
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t n = 0; n < k; ++n)
+      if (const double d = distance[i * k + n]; d > 0 && std::isfinite(d)) {
+        gaps.push_back(d);
+        break;
+      }
+  double reach = 0;
+  if (!gaps.empty()) {
+    const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+    std::nth_element(gaps.begin(), middle, gaps.end());
+    reach = 4 * *middle;
+  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (std::size_t n = 0; n < k; ++n)
+      if (const Index j = near[i * k + n]; j != NearestTree::none && distance[i * k + n] <= reach)
+        join(finite[i], finite[j]);
+}
+
 Components connected_components(const Shape& shape) {
-  Sets sets(shape.size());
-  if (shape.faces.empty()) join_near_points(shape.positions, sets);
+  UnionFind sets(shape.size());
+  if (shape.faces.empty()) join_near_points(shape.positions, [&](Index a, Index b) { sets.join(a, b); });
   for (std::size_t f = 0; f < shape.faces.size(); ++f) {
     const auto corners = shape.faces[f];
     for (const Index p : corners) sets.join(corners[0], p);

@@ -19,6 +19,9 @@ struct Components {
 };
 Components connected_components(const Shape& shape);
 
+/// That definition for points without faces: calls join(i, j) for each pair of points that are joined, at least once.
+void join_near_points(std::span<const Vec3> positions, const std::function<void(Index, Index)>& join);
+
 /// Each undirected edge of the faces once, (low, high), ascending.
 std::vector<std::pair<Index, Index>> edges_of(const Faces& faces);
 

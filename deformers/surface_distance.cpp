@@ -1,0 +1,220 @@
+#include "deformers/surface_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <tuple>
+
+#include "engine/geometry/bounds.h"
+#include "engine/geometry/nearest.h"
+#include "engine/geometry/part_gaps.h"
+
+namespace sinew {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Median distance of a node to the next one at another place.
+double node_spacing(std::span<const Vec3> nodes) {
+  constexpr std::size_t k = 4;
+  std::vector<Index> near(nodes.size() * k);
+  std::vector<double> distance(nodes.size() * k), gaps;
+  NearestTree(nodes).nearest(nodes, static_cast<int>(k), near, distance);
+  for (std::size_t j = 0; j < nodes.size(); ++j)
+    for (std::size_t i = 0; i < k; ++i)
+      if (const double d = distance[j * k + i]; d > 0 && std::isfinite(d)) {
+        gaps.push_back(d);
+        break;
+      }
+  return median(std::move(gaps));
+}
+
+Edges bridges_of(const Places& places, const Edges& edges, const GraphParts& parts, std::span<const Vec3> nodes,
+                 int enough, const Curtains& curtains) {
+  constexpr double rounding = 1e-5;  // of the diagonal: seams of files with five digits
+  std::vector<Index> near(nodes.size()), weight(parts.count, 0);
+  std::vector<double> distance(nodes.size()), lengths;
+  NearestTree(places.at).nearest(nodes, 1, near, distance);
+  for (const Index v : near) ++weight[parts.of_vertex[v]];
+  lengths.reserve(edges.size());
+  for (const auto& [a, b] : edges) lengths.push_back((places.at[a] - places.at[b]).norm());
+  BridgeWishes wishes;
+  wishes.touch = rounding * bounds_of(places.at).diagonal();
+  wishes.reach = node_spacing(nodes);
+  wishes.spacing = median(std::move(lengths));
+  wishes.weight = weight;
+  wishes.enough = static_cast<Index>(enough);
+  return bridges_between(places.at, parts, wishes, curtains);
+}
+
+/// A point reached from a node; the queue gives the nearest first, of equally near ones the lowest node and point.
+struct Label {
+  double distance;
+  Index node, vertex;
+  bool operator<(const Label& other) const {
+    return std::tie(distance, node, vertex) > std::tie(other.distance, other.node, other.vertex);
+  }
+};
+
+class Sweep {
+ public:
+  Sweep(const NeighbourGraph& graph, std::span<const Vec3> nodes, std::size_t width, const Curtains& curtains)
+      : graph_(graph), nodes_(nodes), curtains_(curtains), width_(width) {
+    out_.width = width;
+    out_.node.assign(graph.size() * width, NearestNodes::none);
+    out_.distance.assign(graph.size() * width, infinite);
+    settled_.assign(graph.size() * width, false);
+  }
+
+  NearestNodes run(const std::function<bool(double)>& progress) {
+    start();
+    const std::size_t all = graph_.size() * width_;
+    for (std::size_t settled = 0; !queue_.empty();) {
+      const Label label = queue_.top();
+      queue_.pop();
+      const std::size_t entry = entry_of(label.vertex, label.node);
+      // A better way came later, or as many nodes are nearer.
+      if (entry == absent || settled_[entry] || out_.distance[entry] != label.distance) continue;
+      settled_[entry] = true;
+      spread(label);
+      if (++settled % 65536 == 0 && progress && !progress(static_cast<double>(settled) / static_cast<double>(all)))
+        return {};
+    }
+    sort_rows();
+    return std::move(out_);
+  }
+
+ private:
+  static constexpr std::size_t absent = ~std::size_t{0};
+
+  std::size_t entry_of(Index vertex, Index node) const {
+    const std::size_t first = vertex * width_;
+    for (std::size_t e = first; e < first + width_; ++e)
+      if (out_.node[e] == node) return e;
+    return absent;
+  }
+
+  /// Each node at its nearest vertex and at that one's neighbours. Of the nearest few vertices, the first that no
+  /// curtain parts from it.
+  void start() {
+    constexpr std::size_t k = 8;
+    std::vector<Index> near(nodes_.size() * k);
+    std::vector<double> distance(nodes_.size() * k);
+    NearestTree(graph_.places).nearest(nodes_, static_cast<int>(k), near, distance);
+    for (Index j = 0; j < nodes_.size(); ++j) {
+      const auto row = std::span(near).subspan(j * k, k);
+      const auto free = [&](Index v) {
+        return v != NearestNodes::none && !curtains_.part(nodes_[j], graph_.places[v]);
+      };
+      const auto found = curtains_.empty() ? row.begin() : std::find_if(row.begin(), row.end(), free);
+      if (found == row.end() || *found == NearestNodes::none) continue;
+      offer(*found, j, (nodes_[j] - graph_.places[*found]).norm());
+      for (const Index v : graph_[*found])
+        if (curtains_.empty() || free(v)) offer(v, j, (nodes_[j] - graph_.places[v]).norm());
+    }
+  }
+
+  /// Takes a way to a vertex where it is shorter than the one known, or among the `width` nearest.
+  void offer(Index vertex, Index node, double distance) {
+    const std::size_t first = vertex * width_;
+    std::size_t entry = entry_of(vertex, node);
+    if (entry == absent) {  // in place of the farthest
+      entry = first;
+      for (std::size_t e = first + 1; e < first + width_; ++e)
+        if (std::tie(out_.distance[e], out_.node[e]) > std::tie(out_.distance[entry], out_.node[entry])) entry = e;
+    }
+    if (std::tie(distance, node) >= std::tie(out_.distance[entry], out_.node[entry])) return;
+    out_.distance[entry] = distance;
+    out_.node[entry] = node;
+    settled_[entry] = false;
+    queue_.push({distance, node, vertex});
+  }
+
+  /// To the neighbours r of a vertex p that was settled.
+  void spread(const Label& at) {
+    const Vec3& p = graph_.places[at.vertex];
+    known_.clear();
+    for (const Index q : graph_[at.vertex])
+      if (const std::size_t e = entry_of(q, at.node); e != absent && settled_[e])
+        known_.push_back({q, out_.distance[e], graph_.places[q] - p});
+    for (const Index r : graph_[at.vertex]) {
+      if (const std::size_t e = entry_of(r, at.node); e != absent && settled_[e]) continue;
+      const Vec3 to_r = graph_.places[r] - p;
+      double shortest = at.distance + to_r.norm();
+      const std::span<const Index> around = graph_[r];
+      for (const Known& q : known_)
+        if (std::binary_search(around.begin(), around.end(), q.vertex))
+          shortest = std::min(shortest, through_triangle(at.distance, q, to_r));
+      offer(r, at.node, shortest);
+    }
+  }
+
+  struct Known {
+    Index vertex;
+    double distance;
+    Vec3 from_p;
+  };
+
+  /// p at (0, 0), q at (c, 0), r at (x, y > 0), the node's image at (s, -h); infinite where its line to r does not pass
+  /// between p and q.
+  static double through_triangle(double a, const Known& q, const Vec3& to_r) {
+    const double c = q.from_p.norm(), b = q.distance;
+    const double x = q.from_p.dot(to_r) / c, s = (a * a - b * b + c * c) / (2 * c);
+    const double y_square = to_r.squaredNorm() - x * x, h_square = a * a - s * s;
+    if (!(y_square > 0) || !(h_square >= 0)) return infinite;
+    const double y = std::sqrt(y_square), h = std::sqrt(h_square);
+    const double crossing = s + (x - s) * h / (y + h);
+    if (!(crossing >= 0 && crossing <= c)) return infinite;
+    return std::hypot(x - s, y + h);
+  }
+
+  void sort_rows() {
+    std::vector<std::pair<double, Index>> row(width_);
+    for (std::size_t first = 0; first < out_.node.size(); first += width_) {
+      for (std::size_t e = 0; e < width_; ++e) row[e] = {out_.distance[first + e], out_.node[first + e]};
+      std::sort(row.begin(), row.end());
+      for (std::size_t e = 0; e < width_; ++e) std::tie(out_.distance[first + e], out_.node[first + e]) = row[e];
+    }
+  }
+
+  const NeighbourGraph& graph_;
+  std::span<const Vec3> nodes_;
+  const Curtains& curtains_;
+  std::size_t width_;
+  NearestNodes out_;           ///< while it runs: the best ways known so far, in no order
+  std::vector<bool> settled_;  ///< of each entry of out_
+  std::priority_queue<Label> queue_;
+  std::vector<Known> known_;
+};
+
+}  // namespace
+
+NeighbourGraph surface_graph(const Shape& shape, const Places& places, std::span<const Vec3> nodes, int enough,
+                             const Curtains& curtains) {
+  Edges edges = surface_edges(shape, places);
+  const GraphParts parts = parts_of(places.at.size(), edges);
+  if (parts.count > 1) {
+    const Edges bridges = bridges_of(places, edges, parts, nodes, enough, curtains);
+    edges.insert(edges.end(), bridges.begin(), bridges.end());
+  }
+  if (!curtains.empty())
+    std::erase_if(edges, [&](const auto& e) { return curtains.part(places.at[e.first], places.at[e.second]); });
+  return neighbour_graph(places.at, edges);
+}
+
+NearestNodes nearest_along_surface(const NeighbourGraph& graph, std::span<const Vec3> nodes, int width,
+                                   const Curtains& curtains, const std::function<bool(double)>& progress) {
+  CHECK(width >= 1, width);
+  return Sweep(graph, nodes, static_cast<std::size_t>(width), curtains).run(progress);
+}
+
+}  // namespace sinew
