@@ -56,20 +56,21 @@ Fit fit(const std::shared_ptr<const Shape>& rest, const Shape& pose, const Graph
 
 TEST(GraphHorse, FollowsPosesBetterAlongTheSurface) {
   SHARED_DATA(folder, "poses/sumner_horse");
-  const auto rest = io::read((folder / "horse-poses.obj").string());
+  for (const char* from : {"horse-poses", "1","3","5","8","10"}) {
+  const auto rest = io::read((folder / (std::string(from)+".obj")).string()); printf("FROM %s\n", from);
   const int nodes = getenv("N") ? atoi(getenv("N")) : 280, handles = getenv("H") ? atoi(getenv("H")) : 300;
-  for (const char* name : {"1", "3", "5", "8", "10"}) {
+  for (const char* name : {"horse-poses", "1", "3", "5", "8", "10"}) {
     const auto pose = io::read((folder / (std::string(name) + ".obj")).string());
     Quality q = quality_of(*rest, pose->positions);
     printf("pose %s own edge rms %.4f\n", name, q.edge_rms);
     for (const bool surface : {false, true}) {
       GraphOptions options;
       options.nodes = nodes;
-      options.surface = surface;
+      options.surface = surface; if (getenv("W")) options.w_con = atof(getenv("W")); if (getenv("G")) options.w_reg = atof(getenv("G")); if (getenv("K")) options.neighbours = atoi(getenv("K"));
       const Fit f = fit(rest, *pose, options, handles);
       printf("%s %d rest %.4f pose %.4f max %.2f make %.1f solve %.1f\n", name, surface, f.edges_to_rest, f.edges_to_pose, f.worst_edge, f.make*1e3, f.solve*1e3);
     }
-  }
+  }}
 }
 
 }  // namespace sinew
