@@ -97,6 +97,23 @@ struct GroundConstants {
 };
 SHARED_SIZE(GroundConstants, 80);
 
+// A Gaussian splat as it is seen (engine/gpu/splats.h); pixels, y downwards.
+struct SplatInstance {
+  vec3 at;     // middle and depth
+  vec3 conic;  // a, b, c of a x^2 + 2 b x y + c y^2: squared standard deviations from the middle
+  vec2 reach;  // half the sides of the box that it fills
+  vec4 color;  // red, green, blue; opacity in the middle
+};
+SHARED_SIZE(SplatInstance, 48);
+struct SplatConstants {
+  vec2 size;  // of the picture, pixels
+};
+SHARED_SIZE(SplatConstants, 8);
+SHARED_CONST float splat_low_pass = 0.3f;        // least variance along any direction, pixels^2
+SHARED_CONST float splat_cut = 9.0f;             // squared standard deviations where it ends
+SHARED_CONST float splat_least = 1.0f / 255.0f;  // opacity that is too faint to draw
+SHARED_CONST float harmonic_0 = 0.28209479f;     // the spherical harmonic of degree 0
+
 // Light on a surface from the three cosines of its normal: to the key light, to the sky, to the eye. 0..1, as the
 // brightness seen (the square root stands for the display's gamma): a soft key light that reaches a little around the
 // edge, a sky brighter than the ground, and some light from the eye so that no side is lost.

@@ -1,9 +1,11 @@
 #include "engine/gpu/draw_overlay.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "engine/gpu/draw_shapes.h"
+#include "engine/gpu/splats.h"
 #include "shaders/shared.h"
 
 namespace sinew::gpu {
@@ -28,7 +30,7 @@ DrawState overlay_state(std::string_view vertex, std::string_view fragment, VkDe
   state.vertex = vertex;
   state.fragment = fragment;
   state.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP;
-  state.blend = true;
+  state.blend = Blend::Over;
   state.constants = sizeof(shared::OverlayConstants);
   state.descriptors = descriptors;
   return state;
@@ -50,8 +52,9 @@ shared::OverlayConstants overlay_constants(const Scene& scene, VkExtent2D extent
   return constants;
 }
 
+template <class Constants>
 void draw_instances(VkCommandBuffer commands, const Pipeline& pipeline, const Buffer& instances, std::uint32_t count,
-                    const shared::OverlayConstants& constants) {
+                    const Constants& constants) {
   if (count == 0) return;
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.handle);
   push_constants(commands, pipeline, constants);
@@ -87,6 +90,16 @@ OverlayPipelines create_overlay_pipelines(const Device& device, VkRenderPass pas
   ground.constants = sizeof(shared::GroundConstants);
   pipelines.ground = create_draw_pipeline(device, pass, ground);
 
+  DrawState splats = overlay_state("splat.vert", "splat.frag", descriptors);
+  splats.blend = Blend::Premultiplied;
+  splats.constants = sizeof(shared::SplatConstants);
+  splats.bindings = {{0, sizeof(shared::SplatInstance), VK_VERTEX_INPUT_RATE_INSTANCE}};
+  splats.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(shared::SplatInstance, at)},
+                       {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(shared::SplatInstance, conic)},
+                       {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(shared::SplatInstance, reach)},
+                       {3, 0, VK_FORMAT_R32G32B32A32_SFLOAT, offsetof(shared::SplatInstance, color)}};
+  pipelines.splats = create_draw_pipeline(device, pass, splats);
+
   DrawState lines = overlay_state("line.vert", "line.frag", descriptors);
   lines.bindings = {{0, sizeof(LineInstance), VK_VERTEX_INPUT_RATE_INSTANCE}};
   lines.attributes = {{0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(LineInstance, from)},
@@ -105,7 +118,14 @@ OverlayPipelines create_overlay_pipelines(const Device& device, VkRenderPass pas
   return pipelines;
 }
 
-void write_overlay(const Device& device, OverlayData& data, const Scene& scene) {
+void write_overlay(const Device& device, OverlayData& data, const Scene& scene, VkExtent2D extent, bool with_shapes) {
+  data.splat_count = 0;
+  if (with_shapes && !scene.splats.empty()) {
+    const std::vector<shared::SplatInstance> splats = splat_instances(scene, extent);
+    data.splat_count = static_cast<std::uint32_t>(splats.size());
+    grow(device, data.splats, splats.size() * sizeof(shared::SplatInstance), Memory::Upload);
+    std::ranges::copy(splats, static_cast<shared::SplatInstance*>(data.splats.mapped));
+  }
   const Eigen::Vector3d origin = scene.camera.target;
   data.line_count = static_cast<std::uint32_t>(scene.lines.size());
   data.dot_count = static_cast<std::uint32_t>(scene.dots.size());
@@ -122,15 +142,19 @@ void write_overlay(const Device& device, OverlayData& data, const Scene& scene) 
 }
 
 void draw_overlay(VkCommandBuffer commands, const OverlayPipelines& pipelines, const OverlayData& data,
-                  VkDescriptorSet depths, const Scene& scene, VkExtent2D extent, bool with_ground) {
-  // The layouts of all three agree in their descriptor set.
+                  VkDescriptorSet depths, const Scene& scene, VkExtent2D extent, bool with_shapes) {
+  // The layouts of all four agree in their descriptor set.
   vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.ground.layout, 0, 1, &depths, 0,
                           nullptr);
-  if (with_ground && scene.ground.show) {
+  if (with_shapes && scene.ground.show) {
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.ground.handle);
     push_constants(commands, pipelines.ground, ground_constants(scene, extent));
     vkCmdDraw(commands, 4, 1, 0, 0);
   }
+  const shared::SplatConstants splats{{static_cast<float>(extent.width), static_cast<float>(extent.height)}};
+  vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.splats.layout, 0, 1, &depths, 0,
+                          nullptr);
+  draw_instances(commands, pipelines.splats, data.splats, data.splat_count, splats);
   vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.lines.layout, 0, 1, &depths, 0, nullptr);
   draw_instances(commands, pipelines.lines, data.lines, data.line_count, overlay_constants(scene, extent, 0.004));
   draw_instances(commands, pipelines.dots, data.dots, data.dot_count, overlay_constants(scene, extent, 0.012));

@@ -86,7 +86,7 @@ ShapePipelines create_shape_pipelines(const Device& device, VkRenderPass pass, V
   pipelines.mesh = create_draw_pipeline(device, pass, mesh);
   for (DrawState* state : {&points, &mesh}) {
     state->depth = Depth::Test;
-    state->blend = true;
+    state->blend = Blend::Over;
   }
   pipelines.ghost_points = create_draw_pipeline(device, pass, points);
   pipelines.ghost_mesh = create_draw_pipeline(device, pass, mesh);

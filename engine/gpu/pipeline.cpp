@@ -46,8 +46,8 @@ VkPipelineDepthStencilStateCreateInfo depth_state(Depth depth) {
 
 VkPipelineColorBlendAttachmentState blend_state(const DrawState& state) {
   VkPipelineColorBlendAttachmentState info{};
-  info.blendEnable = state.blend;
-  info.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+  info.blendEnable = state.blend != Blend::None;
+  info.srcColorBlendFactor = state.blend == Blend::Premultiplied ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_SRC_ALPHA;
   info.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   info.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
   info.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;

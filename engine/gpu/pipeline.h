@@ -16,13 +16,16 @@ struct Pipeline {
 
 enum class Depth { None, Test, TestAndWrite };  ///< test: nearer or equal (reversed depth)
 
+/// Over what is there, by alpha; Premultiplied: the colour has been multiplied by alpha. The target's alpha stays.
+enum class Blend { None, Over, Premultiplied };
+
 struct DrawState {
   std::string_view vertex, fragment;  ///< files of shaders/
   std::vector<VkVertexInputBindingDescription> bindings;
   std::vector<VkVertexInputAttributeDescription> attributes;
   VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
   Depth depth = Depth::None;
-  bool blend = false;  ///< over what is there, by alpha; the target's alpha stays
+  Blend blend = Blend::None;
   bool writes_color = true;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   std::uint32_t constants = 0;                         ///< bytes of push constants, for all stages

@@ -67,8 +67,8 @@ struct RasterScratch {
   std::vector<std::uint8_t> outlined;
 };
 
-/// The whole picture: backdrop, shapes under their light, eye-dome lighting, outline of what is selected, ghosts. With
-/// scene.smooth_edges two by two samples a pixel (up to a limit of memory).
+/// The whole picture: backdrop, shapes under their light, eye-dome lighting, outline of what is selected, ghosts,
+/// splats. With scene.smooth_edges two by two samples a pixel (up to a limit of memory).
 void raster_scene(RasterScratch& scratch, const Scene& scene, VkExtent2D extent, const RasterOutput& out);
 
 }  // namespace sinew::gpu

@@ -6,6 +6,7 @@
 #include "engine/gpu/draw_shapes.h"
 #include "engine/gpu/raster.h"
 #include "engine/gpu/raster_ground.h"
+#include "engine/gpu/raster_splats.h"
 #include "engine/gpu/raster_surface.h"
 
 namespace sinew::gpu {
@@ -239,6 +240,7 @@ void raster_scene(RasterScratch& scratch, const Scene& scene, VkExtent2D extent,
   });
   if (state.constants.outline != 0) draw_outline(state, scratch.outlined);
   write_output(state, extent, out);
+  raster_splats(scene, extent, out);
 }
 
 }  // namespace sinew::gpu

@@ -214,7 +214,7 @@ VkCommandBuffer begin_picture(const Device& device, Renderer& renderer, Frame& f
                               const FinalTarget& target) {
   CHECK(!frame.pending);
   const bool on_device = renderer.paths.draw_on_device || !can_raster(scene);
-  write_overlay(device, renderer.overlay_data, scene);
+  write_overlay(device, renderer.overlay_data, scene, target.extent, on_device);
   if (on_device)
     record_shapes(device, renderer, frame, scene, target.extent);
   else

@@ -41,6 +41,13 @@ struct MeshItem {
   double ghost = 0;
 };
 
+struct Splats;
+
+/// Gaussian splats (splats.h), over the ground and what is solid behind them.
+struct SplatItem {
+  const Splats* splats = nullptr;
+};
+
 struct Line {
   Eigen::Vector3d from, to;
   Color color;
@@ -88,6 +95,7 @@ struct Scene {
   Ground ground;
   std::vector<CloudItem> clouds;
   std::vector<MeshItem> meshes;
+  std::vector<SplatItem> splats;
   std::vector<Line> lines;
   std::vector<Dot> dots;
   bool outline_selected =
