@@ -22,6 +22,8 @@ sinew_tests(test_samples tests/apps/samples_test.cpp sinew_samples sinew_documen
 sinew_tests(test_editor_core tests/apps/editor_core*_test.cpp sinew_editor_core)
 sinew_tests(test_sinew tests/apps/sinew_*test.cpp sinew_document sinew_deformers sinew_gpu)
 add_dependencies(test_sinew sinew)
+sinew_tests(test_pictures tests/apps/pictures_test.cpp sinew_gpu)
+add_dependencies(test_pictures sinew sinew-samples)
 sinew_tests(test_house tests/house/*.cpp sinew_common)
 
 # One run of all gpu tests: each start of the program proves anew that the validation layer catches a planted hazard.

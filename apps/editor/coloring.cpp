@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "engine/gpu/viridis.h"
+
 namespace sinew::editor {
 
 namespace {
@@ -64,30 +66,11 @@ void color_by_numbers(const Attribute& attribute, Coloring& out) {
   const double range = out.high - out.low;
   for (std::size_t i = 0; i < out.colors.size(); ++i) {
     const double value = attribute.number(i, 0);
-    if (std::isfinite(value)) out.colors[i] = viridis(range > 0 ? (value - out.low) / range : 0.5);
+    if (std::isfinite(value)) out.colors[i] = gpu::viridis(range > 0 ? (value - out.low) / range : 0.5);
   }
 }
 
 }  // namespace
-
-gpu::PointColor viridis(double x) {
-  constexpr std::array<std::array<double, 3>, 9> table{{{68, 1, 84},
-                                                        {71, 44, 122},
-                                                        {59, 81, 139},
-                                                        {44, 113, 142},
-                                                        {33, 144, 141},
-                                                        {39, 173, 129},
-                                                        {92, 200, 99},
-                                                        {170, 220, 50},
-                                                        {253, 231, 37}}};
-  const double at = std::clamp(x, 0.0, 1.0) * 8;
-  const std::size_t low = std::min<std::size_t>(7, static_cast<std::size_t>(at));
-  const double part = at - static_cast<double>(low);
-  const auto channel = [&](std::size_t c) {
-    return static_cast<std::uint8_t>(table[low][c] + part * (table[low + 1][c] - table[low][c]) + 0.5);
-  };
-  return {channel(0), channel(1), channel(2), 0};
-}
 
 std::vector<std::string> color_choices(const Shape& shape) {
   std::vector<std::string> names;

@@ -22,7 +22,4 @@ struct Coloring {
 /// `attribute` empty or unknown: plain.
 Coloring coloring_of(const Shape& shape, const std::string& attribute);
 
-/// 0..1 to dark violet ... yellow (viridis, van der Walt and Smith 2015, from nine of its colours).
-gpu::PointColor viridis(double x);
-
 }  // namespace sinew::editor

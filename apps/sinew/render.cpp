@@ -7,6 +7,7 @@
 #include "apps/sinew/command.h"
 #include "apps/sinew/files.h"
 #include "apps/sinew/interrupt.h"
+#include "apps/sinew/legend.h"
 #include "apps/sinew/progress.h"
 #include "apps/sinew/scene.h"
 #include "deformers/methods.h"
@@ -64,6 +65,14 @@ std::set<std::string> shown(const std::string& text) {
   return out;
 }
 
+void check_fields(const std::set<std::string>& show, bool has_edit) {
+  const bool energy = show.contains("energy"), displacement = show.contains("displacement");
+  if (energy && displacement) throw UsageError("--show: expected energy or displacement, found both");
+  if ((energy || displacement) && !has_edit)
+    throw UsageError(
+        fmt::format("--show {}: expected an edit (--edit), found none", energy ? "energy" : "displacement"));
+}
+
 gpu::Picture draw(const Shape& input, const document::Evaluation* evaluation, const View& view,
                   const std::set<std::string>& show) {
   const std::unique_ptr<gpu::Device> device = gpu::create_device({});
@@ -73,12 +82,19 @@ gpu::Picture draw(const Shape& input, const document::Evaluation* evaluation, co
       gpu::create_offscreen(*device, {static_cast<std::uint32_t>(view.width), static_cast<std::uint32_t>(view.height)});
   DrawnShape drawn;
   fill_scene(*device, input, evaluation, view, show, drawn);
-  return gpu::render_picture(*device, *renderer, offscreen, drawn.scene);
+  gpu::Picture picture = gpu::render_picture(*device, *renderer, offscreen, drawn.scene);
+  if (drawn.field) {
+    draw_legend(picture, *drawn.field);
+    message(fmt::format("{}: colours from 0 to {:.4g}; the most is {:.4g}", drawn.field->name, drawn.field->high,
+                        drawn.field->most));
+  }
+  return picture;
 }
 
 int run(const Options& options) {
   const View view = view_of(options);
   const std::set<std::string> show = shown(options.show);
+  check_fields(show, !options.edit.empty());
   if (!options.png.ends_with(".png")) throw UsageError(options.png + ": expected a name that ends in .png");
   check_output_text(options.png, options.force);
   document::Project project;
@@ -111,8 +127,10 @@ std::function<int()> declare_render(Arguments& arguments) {
   arguments.option("--size", "WxH", options->size, "Pixels; 1280x720 without");
   arguments.option("--view", "VIEW", options->view,
                    "front, back, left, right, top, bottom, iso (without), or eye and target ex,ey,ez,tx,ty,tz");
-  arguments.option("--show", "LIST", options->show,
-                   "Some of graph, handles, fixed, rest (the shape before, faintly), ground; with commas");
+  arguments.option(
+      "--show", "LIST", options->show,
+      "Some of graph, handles, fixed, rest (the shape before, faintly), ground, points (in place of splats or "
+      "faces), energy or displacement (as colours); with commas");
   arguments.option("--up", "AXIS", options->up, "y (without) or z: what is up in the picture");
   arguments.option("--point-size", "PIXELS", options->point_size, "Diameter of points; without, from their number");
   arguments.option("--from", "EXT", options->from, "Format of standard input, by an extension");

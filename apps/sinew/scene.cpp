@@ -87,6 +87,30 @@ void mark(std::vector<gpu::PointColor>& colors, std::span<const Index> points, u
   for (const Index i : points) colors[i].marks = static_cast<std::uint8_t>(colors[i].marks | bit);
 }
 
+/// The colours of splats as the camera sees them.
+void color_by_splats(const gpu::Splats& splats, const gpu::Camera& camera, std::vector<gpu::PointColor>& colors) {
+  for (std::size_t i = 0; i < splats.count; ++i) {
+    const Vec3 from_eye = splats.centre + splats.positions[i].cast<double>() - camera.eye;
+    const Eigen::Vector3f color = gpu::splat_color(splats, i, from_eye.normalized().cast<float>());
+    if (!color.allFinite()) continue;
+    const auto byte = [&](int c) { return static_cast<std::uint8_t>(255 * std::min(1.0f, color[c]) + 0.5f); };
+    colors[i] = {byte(0), byte(1), byte(2), 0};
+  }
+}
+
+/// Marks as points have them (surface.glsl); a field covers what the file says.
+void color_splats(std::span<const gpu::PointColor> colors, bool field, const gpu::Look& look, gpu::Splats& splats) {
+  const auto mixed = [&](std::size_t i, int r, int g, int b, float part) {
+    gpu::tint(splats, i, Eigen::Vector3i(r, g, b).cast<float>() / 255, part);
+  };
+  const gpu::Color marks[] = {look.handle, look.fixed, look.rigid};
+  for (std::size_t i = 0; i < splats.count; ++i) {
+    if (field) mixed(i, colors[i].r, colors[i].g, colors[i].b, 1);
+    for (unsigned k = 0; k < 3; ++k)
+      if ((colors[i].marks >> k & 1) != 0) mixed(i, marks[k].r, marks[k].g, marks[k].b, gpu::shared::mark_strength);
+  }
+}
+
 /// A ball at the mean of each handle's bent points.
 void add_handles(const document::LayerResult& layer, const Shape& bent, gpu::Scene& scene) {
   for (const Handle& handle : layer.constraints.handles) {
@@ -96,8 +120,10 @@ void add_handles(const document::LayerResult& layer, const Shape& bent, gpu::Sce
   }
 }
 
-/// Lines and dots of the method's own structure, carried along by the pose.
-void add_structure(const Deformer::Structure& structure, const Pose& pose, gpu::Scene& scene) {
+/// Lines and dots of the method's own structure, carried along by the pose; with the energy of each map as the colour
+/// of its dots where `energy` has colours.
+void add_structure(const Deformer::Structure& structure, const Pose& pose, const Field* energy,
+                   std::span<const double> energies, gpu::Scene& scene) {
   std::vector<Vec3> at(structure.vertices.size());
   for (std::size_t i = 0; i < at.size(); ++i) {
     const Affine& map = pose[structure.maps[i]];
@@ -111,14 +137,42 @@ void add_structure(const Deformer::Structure& structure, const Pose& pose, gpu::
     line.hidden = 0.4;
     scene.lines.push_back(line);
   }
-  for (const Vec3& p : at) {
+  for (std::size_t i = 0; i < at.size(); ++i) {
     gpu::Dot dot;
-    dot.position = p;
+    dot.position = at[i];
     dot.color = gpu::Color::hex(0xffffff, 0.9);
     dot.radius = 2;
     dot.hidden = 0.5;
+    if (energy != nullptr) {
+      const gpu::PointColor color = color_of(*energy, energies[structure.maps[i]]);
+      dot.color = {color.r, color.g, color.b, 255};
+      dot.radius = 3;
+      dot.outline = 1;
+    }
     scene.dots.push_back(dot);
   }
+}
+
+/// What `show` asks to see of the edit's layers: marks on points, balls, structures.
+void add_layers(const document::Evaluation& evaluation, const std::set<std::string>& show,
+                std::vector<gpu::PointColor>& colors, DrawnShape& out) {
+  const Field* energy = show.contains("energy") ? &*out.field : nullptr;
+  for (std::size_t i = 0; i < evaluation.layers.size(); ++i) {
+    const document::LayerResult& layer = evaluation.layers[i];
+    if (show.contains("fixed")) mark(colors, layer.constraints.fixed, gpu::shared::mark_fixed);
+    if (show.contains("handles")) {
+      for (const Handle& handle : layer.constraints.handles) mark(colors, handle.points, gpu::shared::mark_handle);
+      add_handles(layer, *evaluation.shape, out.scene);
+    }
+    if (show.contains("graph"))
+      add_structure(*layer.structure, *layer.pose, energy, evaluation.map_energies[i], out.scene);
+  }
+}
+
+void add_bounds(const Bounds& more, Bounds& bounds) {
+  if (more.empty()) return;
+  bounds.add(more.min);
+  bounds.add(more.max);
 }
 
 }  // namespace
@@ -126,42 +180,42 @@ void add_structure(const Deformer::Structure& structure, const Pose& pose, gpu::
 void fill_scene(const gpu::Device& device, const Shape& input, const document::Evaluation* evaluation, const View& view,
                 const std::set<std::string>& show, DrawnShape& out) {
   const Shape& shape = evaluation != nullptr ? *evaluation->shape : input;
-  Bounds bounds = bounds_of(shape.positions);
   const bool rest = evaluation != nullptr && show.contains("rest");
-  if (rest) {
-    const Bounds more = bounds_of(input.positions);
-    if (!more.empty()) {
-      bounds.add(more.min);
-      bounds.add(more.max);
-    }
-  }
-  std::vector<gpu::PointColor> colors = colors_of(shape);
+  const bool splats = shape.faces.empty() && gpu::holds_splats(shape);
+  if (splats) out.splats = gpu::create_splats(shape);
+  Bounds bounds = splats ? gpu::bulk_bounds(out.splats) : bounds_of(shape.positions);
+  if (rest) add_bounds(splats ? gpu::bulk_bounds(gpu::create_splats(input)) : bounds_of(input.positions), bounds);
   out.scene.up = view.z_up ? gpu::UpAxis::Z : gpu::UpAxis::Y;
   out.scene.camera = camera_of(view, bounds, shape.origin);
   out.scene.ground = gpu::ground_below(bounds, out.scene.up);
   out.scene.ground.show = show.contains("ground");
+
+  std::vector<gpu::PointColor> colors = colors_of(shape);
+  if (splats) color_by_splats(out.splats, out.scene.camera, colors);
   if (evaluation != nullptr) {
-    for (const document::LayerResult& layer : evaluation->layers) {
-      if (show.contains("fixed")) mark(colors, layer.constraints.fixed, gpu::shared::mark_fixed);
-      if (show.contains("handles")) {
-        for (const Handle& handle : layer.constraints.handles) mark(colors, handle.points, gpu::shared::mark_handle);
-        add_handles(layer, shape, out.scene);
-      }
-      if (show.contains("graph")) add_structure(*layer.structure, *layer.pose, out.scene);
-    }
+    if (show.contains("energy")) out.field = energy_field(*evaluation);
+    if (show.contains("displacement")) out.field = displacement_field(input, shape);
+    if (out.field)
+      for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = color_of(*out.field, out.field->values[i]);
+    add_layers(*evaluation, show, colors, out);
   }
   const double size = size_of_points(view, shape.size());
   const auto add = [&](gpu::Points& points, const Shape& of, bool ghost) {
     points = gpu::create_points(device, false, of.positions, normals_of(of));
     if (!ghost) gpu::set_colors(points, colors);
     const double opacity = ghost ? 0.25 : 0;
-    if (of.faces.empty())
+    if (of.faces.empty() || show.contains("points"))
       out.scene.clouds.push_back({.points = &points, .size = size, .ghost = opacity});
     else
       out.scene.meshes.push_back({.points = &points, .triangles = &out.triangles, .ghost = opacity});
   };
   if (!shape.faces.empty()) out.triangles = gpu::create_triangles(device, triangles_of(shape.faces));
-  add(out.points, shape, false);
+  if (splats && !show.contains("points")) {
+    color_splats(colors, out.field.has_value(), out.scene.look, out.splats);
+    out.scene.splats.push_back({&out.splats});
+  } else {
+    add(out.points, shape, false);
+  }
   if (rest) add(out.rest_points, input, true);
 }
 

@@ -1,19 +1,23 @@
 #pragma once
 /// A shape, and what an edit does to it, as a scene for the renderer. Coordinates are relative to the shape's origin.
 
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "apps/sinew/field.h"
 #include "engine/document/evaluate.h"
 #include "engine/gpu/device.h"
 #include "engine/gpu/points.h"
 #include "engine/gpu/scene.h"
+#include "engine/gpu/splats.h"
 
 namespace sinew::app {
 
 /// What --show can name.
-inline constexpr const char* show_names[] = {"graph", "handles", "fixed", "rest", "ground"};
+inline constexpr const char* show_names[] = {"graph",  "handles", "fixed",  "rest",
+                                             "ground", "points",  "energy", "displacement"};
 
 struct View {
   std::string name = "iso";  ///< of look_from(), or "ex,ey,ez,tx,ty,tz"
@@ -26,10 +30,14 @@ struct View {
 struct DrawnShape {
   gpu::Points points, rest_points;
   gpu::Triangles triangles;
+  gpu::Splats splats;
+  std::optional<Field> field;  ///< that the colours show
   gpu::Scene scene;
 };
 
-/// `evaluation` may be null: then the shape as it is. Throws InputError where the view is none.
+/// `evaluation` may be null: then the shape as it is, and `show` has no field. A shape without faces that holds splats
+/// is drawn as such, unless `show` has "points", and framed without the few that are far from the others. Throws
+/// InputError where the view is none.
 void fill_scene(const gpu::Device& device, const Shape& input, const document::Evaluation* evaluation, const View& view,
                 const std::set<std::string>& show, DrawnShape& out);
 

@@ -134,6 +134,7 @@ Evaluation evaluate(Workspace& workspace, std::span<const Layer> layers, int fra
     }
     if (options.measure) measure(deformer, result, *out.shape, bent->positions, report);
     out.bindings.push_back(deformer.binding());
+    out.map_energies.push_back(deformer.map_energy());
     out.reports.push_back(std::move(report));
     out.shape = bent;
   }

@@ -15,6 +15,7 @@ struct Evaluation {
   std::shared_ptr<const Shape> shape;  ///< bent, with the input's attributes, faces and content
   std::vector<LayerResult> layers;
   std::vector<std::vector<Deformer::Table>> bindings;  ///< of each of `layers`, for a pose file
+  std::vector<std::vector<double>> map_energies;       ///< of each of `layers` (Deformer::map_energy)
   std::vector<LayerReport> reports;                    ///< of each of `layers`
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Runs the built sinew as a user would.
+/// Runs the built programs as a user would.
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ struct Outcome {
 /// A running program. Its standard input is a pipe that stays open until close_input().
 class Program {
  public:
-  explicit Program(const std::vector<std::string>& arguments) {
+  explicit Program(const std::vector<std::string>& arguments, const std::string& name = "sinew") {
     int in[2], out[2], err[2];
     if (pipe2(in, O_CLOEXEC) != 0 || pipe2(out, O_CLOEXEC) != 0 || pipe2(err, O_CLOEXEC) != 0)
       ADD_FAILURE() << "no pipes";
@@ -37,8 +37,8 @@ class Program {
     posix_spawn_file_actions_adddup2(&actions, in[0], STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&actions, out[1], STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, err[1], STDERR_FILENO);
-    const std::string path = std::string(SINEW_BINARY_DIR) + "/bin/sinew";
-    std::vector<std::string> texts{"sinew"};
+    const std::string path = std::string(SINEW_BINARY_DIR) + "/bin/" + name;
+    std::vector<std::string> texts{name};
     texts.insert(texts.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     for (std::string& text : texts) pointers.push_back(text.data());
