@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <set>
 #include <sstream>
 
 #include "engine/gpu/png.h"
@@ -69,9 +70,9 @@ Difference difference(const gpu::Picture& a, const gpu::Picture& b) {
   return out;
 }
 
-/// Rounding differs from processor to processor and edges from device to device; what a person would see is more.
+/// Rounding differs from processor to processor; what a person would see is more.
 bool alike(const Difference& d) {
-  return d.mean <= 1 && d.most <= 20;
+  return d.mean <= 0.5 && d.most <= 12;
 }
 
 /// Where they differ, eight times as much, on grey.
@@ -96,13 +97,15 @@ std::string sample_of(const std::string& argument) {
 
 class Pictures : public ::testing::TestWithParam<Row> {
  protected:
-  /// Makes the row's samples and draws it.
+  /// Makes the row's samples and draws it, on the software driver: graphics cards smooth edges in ways of their own.
   gpu::Picture draw(const Row& row) const {
+    setenv("SINEW_VULKAN_DEVICE", "llvmpipe", 1);
     std::vector<std::string> arguments{"render"};
+    std::set<std::string> made;
     for (std::string argument : row.arguments) {
-      if (const std::string sample = sample_of(argument); !sample.empty()) {
-        const Outcome made = Program({samples_.path().string(), sample}, "sinew-samples").wait();
-        EXPECT_EQ(made.status, 0) << made.err;
+      if (const std::string sample = sample_of(argument); !sample.empty() && made.insert(sample).second) {
+        const Outcome outcome = Program({samples_.path().string(), sample}, "sinew-samples").wait();
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
       }
       replace_all(argument, "SAMPLES", samples_.path().string());
       arguments.push_back(argument);
@@ -168,7 +171,7 @@ TEST(PicturesTest, WhatAPersonWouldSeeIsSeen) {
       }
     for (std::size_t i = 0; i < lit.rgba.size(); ++i) {
       lit.rgba[i] = static_cast<std::uint8_t>(std::min(255, lit.rgba[i] + 2));
-      noisy.rgba[i] = static_cast<std::uint8_t>(std::max(0, noisy.rgba[i] - static_cast<int>(i / 4 % 2)));
+      noisy.rgba[i] = static_cast<std::uint8_t>(std::max(0, noisy.rgba[i] - (i / 4 % 4 == 0 ? 1 : 0)));
     }
     small.height -= 1;
     small.rgba.resize(small.rgba.size() - 4 * static_cast<std::size_t>(small.width));

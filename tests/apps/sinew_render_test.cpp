@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "engine/gpu/camera.h"
 #include "engine/gpu/png.h"
 #include "tests/apps/program.h"
 #include "tests/apps/sinew_fixtures.h"
@@ -19,6 +20,37 @@ std::size_t count(const gpu::Picture& picture, bool orange) {
     n += orange ? r > b + 60 : b > r + 60;
   }
   return n;
+}
+
+/// An ascii 3DGS PLY: a row of eleven red blobs that melt into each other, x -1..1, and one blob far away.
+std::string splats_ply() {
+  std::string text = "ply\nformat ascii 1.0\nelement vertex 112\n";
+  for (const char* name : {"x", "y", "z", "f_dc_0", "f_dc_1", "f_dc_2", "opacity", "scale_0", "scale_1", "scale_2",
+                           "rot_0", "rot_1", "rot_2", "rot_3"})
+    text += std::string("property float ") + name + "\n";
+  text += "end_header\n";
+  for (int i = 0; i < 112; ++i) {
+    const std::string x = i < 111 ? std::to_string(0.2 * (i % 11) - 1) : "100000";
+    text += x + " " + std::to_string(0.03 * (i / 11)) + " 0 1.7 -1.7 -1.7 3 -2 -2 -2 1 0 0 0\n";
+  }
+  return text;
+}
+
+/// Part of the pixels that are not dark grey.
+double covered(const gpu::Picture& picture) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4) n += picture.rgba[i] > 80;
+  return static_cast<double>(n) / static_cast<double>(picture.rgba.size() / 4);
+}
+
+/// The render of `arguments`, which must succeed.
+gpu::Picture drawn(const TemporaryFolder& folder, std::vector<std::string> arguments, std::string* err = nullptr) {
+  arguments.insert(arguments.begin(), "render");
+  arguments.insert(arguments.end(), {"-o", folder / "drawn.png", "--force", "--size", "320x200"});
+  const Outcome outcome = run_sinew(arguments);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  if (err != nullptr) *err = outcome.err;
+  return gpu::read_png(folder / "drawn.png");
 }
 
 }  // namespace
@@ -47,6 +79,105 @@ TEST(SinewRender, DrawsTheShapeTheEditAndItsMarks) {
   EXPECT_EQ(draw("again.png", {"--edit", folder / "edit.json"}).rgba, bent.rgba);
   const gpu::Picture eye = draw("eye.png", {"--view", "2,1,9,2,1,0"});
   EXPECT_NE(eye.rgba, plain.rgba);
+}
+
+TEST(SinewRender, SplatsAreDrawnAsSuchAndFramedWithoutOutliers) {
+  const TemporaryFolder folder;
+  save(folder / "splats.ply", splats_ply());
+  const gpu::Picture splats = drawn(folder, {folder / "splats.ply", "--view", "front"});
+  const gpu::Picture points =
+      drawn(folder, {folder / "splats.ply", "--view", "front", "--show", "points", "--point-size", "2"});
+  EXPECT_GT(covered(splats), 0.2);
+  EXPECT_LT(covered(points), 0.1);
+  EXPECT_GT(covered(points), 0.001);
+  const std::uint8_t* middle = splats.at(160, 100);
+  EXPECT_GT(middle[0], 240);
+  EXPECT_LT(middle[1], 30);
+}
+
+TEST(SinewRender, BentSplatsAreDrawn) {
+  const TemporaryFolder folder;
+  save(folder / "splats.ply", splats_ply());
+  save(folder / "edit.json", R"({ "sinew": 1, "layers": [ { "method": "graph", "settings": { "nodes": 40 },
+    "fixed": [ { "box": [[-1.1, -1, -1], [-0.7, 1, 1]] } ],
+    "handles": [ { "points": { "box": [[0.7, -1, -1], [1.1, 1, 1]] }, "move": [0, 1, 0] } ] } ] })");
+  const std::vector<std::string> view{folder / "splats.ply", "--view", "0,0.5,6,0,0.5,0"};
+  std::vector<std::string> bent = view, marked;
+  bent.insert(bent.end(), {"--edit", folder / "edit.json"});
+  marked = bent;
+  marked.insert(marked.end(), {"--show", "fixed"});
+  const gpu::Picture before = drawn(folder, view), after = drawn(folder, bent);
+  // The right end has moved up, and what was there is empty.
+  Eigen::Vector3d from, to;
+  gpu::Camera camera;
+  camera.eye = {0, 0.5, 6};
+  camera.target = {0, 0.5, 0};
+  ASSERT_TRUE(gpu::project(camera, {320, 200}, {0.9, 0.15, 0}, from));
+  ASSERT_TRUE(gpu::project(camera, {320, 200}, {0.9, 1.15, 0}, to));
+  const auto red = [](const gpu::Picture& picture, const Eigen::Vector3d& at) {
+    return picture.at(static_cast<int>(at.x()), static_cast<int>(at.y()))[0];
+  };
+  EXPECT_GT(red(before, from), 200);
+  EXPECT_LT(red(before, to), 60);
+  EXPECT_LT(red(after, from), 60);
+  EXPECT_GT(red(after, to), 200);
+  // The fixed end takes on blue.
+  ASSERT_TRUE(gpu::project(camera, {320, 200}, {-0.9, 0.15, 0}, from));
+  const gpu::Picture blue = drawn(folder, marked);
+  EXPECT_LT(after.at(static_cast<int>(from.x()), static_cast<int>(from.y()))[2], 40);
+  EXPECT_GT(blue.at(static_cast<int>(from.x()), static_cast<int>(from.y()))[2], 100);
+}
+
+TEST(SinewRender, EnergyAndDisplacementAreColoursWithALegend) {
+  const TemporaryFolder folder;
+  save(folder / "scan.ply", sheet_ply());
+  save(folder / "edit.json", turn_edit());
+  const std::vector<std::string> base{folder / "scan.ply", "--edit", folder / "edit.json"};
+  const gpu::Picture plain = drawn(folder, base);
+  for (const std::string name : {"energy", "displacement"}) {
+    std::vector<std::string> arguments = base;
+    arguments.insert(arguments.end(), {"--show", name});
+    std::string err;
+    const gpu::Picture picture = drawn(folder, arguments, &err);
+    EXPECT_NE(err.find("sinew: " + name + ": colours from 0 to "), std::string::npos) << err;
+    // Yellow and violet, on the sheet and in the legend at the bottom left, where nothing was.
+    const auto tell = [&](int left, int top, int right, int bottom) {
+      int yellow = 0, violet = 0;
+      for (int y = top; y < bottom; ++y)
+        for (int x = left; x < right; ++x) {
+          const std::uint8_t* c = picture.at(x, y);
+          yellow += c[1] > c[2] + 60 && c[0] > 90;
+          violet += c[2] > c[1] + 20;
+        }
+      return std::pair(yellow, violet);
+    };
+    const auto sheet = tell(110, 0, 320, 200), legend = tell(0, 160, 110, 200);
+    EXPECT_GT(sheet.first, 20) << name;
+    EXPECT_GT(sheet.second, 20) << name;
+    EXPECT_GT(legend.first, 20) << name;
+    EXPECT_GT(legend.second, 20) << name;
+    int white = 0, before = 0;
+    for (int y = 160; y < 200; ++y)
+      for (int x = 0; x < 110; ++x) {
+        white += picture.at(x, y)[2] > 220;
+        before += plain.at(x, y)[2] > 220;
+      }
+    EXPECT_GT(white, 80) << name;
+    EXPECT_EQ(before, 0) << name;
+  }
+}
+
+TEST(SinewRender, FieldsNeedAnEditAndOneOfThemIsEnough) {
+  const TemporaryFolder folder;
+  save(folder / "scan.ply", sheet_ply());
+  save(folder / "edit.json", turn_edit());
+  const Outcome without = run_sinew({"render", folder / "scan.ply", "-o", folder / "x.png", "--show", "energy"});
+  EXPECT_EQ(without.status, 2);
+  EXPECT_EQ(without.err, "sinew: --show energy: expected an edit (--edit), found none\n");
+  const Outcome both = run_sinew({"render", folder / "scan.ply", "-o", folder / "x.png", "--edit", folder / "edit.json",
+                                  "--show", "energy,displacement"});
+  EXPECT_EQ(both.status, 2);
+  EXPECT_EQ(both.err, "sinew: --show: expected energy or displacement, found both\n");
 }
 
 }  // namespace sinew
