@@ -4,6 +4,7 @@
 #include "apps/sinew/files.h"
 #include "apps/sinew/interrupt.h"
 #include "apps/sinew/progress.h"
+#include "apps/sinew/task.h"
 #include "deformers/methods.h"
 #include "engine/document/pose_file.h"
 #include "engine/geometry/skin.h"
@@ -15,7 +16,7 @@ namespace sinew::app {
 namespace {
 
 struct Options {
-  std::string pose, input, from;
+  std::string pose, input, from, task;
   Output out;
 };
 
@@ -30,8 +31,9 @@ document::PoseApplier read_pose(const std::string& path, Vec3& origin) {
 int run(const Options& options) {
   if (options.pose == "-" && options.input == "-")
     throw UsageError("expected one of POSE and INPUT to be -, found both");
-  check_output({options.out.path, options.from, options.out.force});
   io::StreamOptions stream;
+  if (!options.task.empty()) stream.share = parse_task(options.task);
+  if (!stream.share) check_output({options.out.path, options.from, options.out.force});
   const document::PoseApplier pose = read_pose(options.pose, stream.origin);
   stream.force = options.out.force;
   stream.as = options.from;
@@ -60,6 +62,9 @@ std::function<int()> declare_apply(Arguments& arguments) {
   arguments.option("-o,--output", "OUT", options->out.path, "File to write; - with --from", true);
   arguments.option("--from", "EXT", options->from, "Format of standard input and output, by an extension");
   arguments.flag("--force", options->out.force, "Replace OUT where it exists");
+  arguments.option("--task", "I/N", options->task,
+                   "Bend the I-th of N shares of a large binary PLY and write it in place into OUT, which "
+                   "all N share; complete once every one of them has left with 0");
   return [options] { return run(*options); };
 }
 

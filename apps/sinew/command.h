@@ -48,6 +48,7 @@ std::function<int()> declare_convert(Arguments& arguments);
 std::function<int()> declare_diff(Arguments& arguments);
 std::function<int()> declare_deform(Arguments& arguments);
 std::function<int()> declare_apply(Arguments& arguments);
+std::function<int()> declare_submit(Arguments& arguments);
 std::function<int()> declare_render(Arguments& arguments);
 std::function<int()> declare_formats(Arguments& arguments);
 std::function<int()> declare_methods(Arguments& arguments);

@@ -25,8 +25,17 @@ constexpr Command commands[] = {
      declare_deform},
     {"apply", "Bends any other file of the same space with a solved edit, without solving",
      "  sinew deform coarse.ply --edit lift.json -o bent.ply --pose lift.pose\n"
-     "  sinew apply lift.pose dense.ply -o dense-bent.ply",
+     "  sinew apply lift.pose dense.ply -o dense-bent.ply\n"
+     "  sinew apply lift.pose huge.ply -o huge-bent.ply --task 3/8      (one of 8 tasks that share the output)",
      declare_apply},
+    {"submit", "Runs deform or apply as many tasks: a Slurm job array, under GNU parallel, or as printed commands",
+     "  sinew submit --engine slurm --tasks 8 -- apply lift.pose huge.ply -o huge-bent.ply\n"
+     "  sinew submit --engine slurm --tasks 8 --resume -- apply lift.pose huge.ply -o huge-bent.ply   (those that "
+     "failed)\n"
+     "  sinew submit --engine parallel --tasks 4 --jobs 2 -- deform run.####.obj --edit walk.json -o bent.####.obj\n"
+     "  sinew submit --engine print --tasks 4 -- apply lift.pose huge.ply -o huge-bent.ply >commands.txt\n"
+     "Partition, time and memory of Slurm: the environment of sbatch, as SBATCH_PARTITION.",
+     declare_submit},
     {"diff", "Shows what changed between two files: point distances, attributes, everything else",
      "  sinew diff scan.ply bent.ply\n"
      "  sinew diff --json before.obj after.obj",
