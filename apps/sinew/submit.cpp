@@ -35,6 +35,7 @@ struct Engine {
   /// The command line that runs `tasks` in the folder of the log.
   std::vector<std::string> (*arguments)(const TaskNumbers& tasks, const std::string& jobs, const JobLog& log);
   void (*stop)(const Child& child, const JobLog& log);
+  bool late;  ///< can be ended once all tasks have: it finds out seldom
 };
 
 void write_text(const JobLog& log, const char* name, const std::string& text) {
@@ -78,8 +79,8 @@ void stop_parallel(const Child& parallel, const JobLog&) {
 }
 
 constexpr Engine engines[] = {
-    {"slurm", "sbatch", "slurm-client", slurm_arguments, stop_slurm},
-    {"parallel", "parallel", "parallel", parallel_arguments, stop_parallel},
+    {"slurm", "sbatch", "slurm-client", slurm_arguments, stop_slurm, true},
+    {"parallel", "parallel", "parallel", parallel_arguments, stop_parallel, false},
 };
 
 /// Null for print.
@@ -140,6 +141,7 @@ int wait_for(Child& child, const Engine& engine, const JobLog& log, std::size_t 
     if (const auto status = child.ended()) return *status;
     if (round % 10 == 0) done = static_cast<double>(log.statuses().size() - before) / static_cast<double>(tasks);
     if (!progress(done) && stopped++ == 0) engine.stop(child, log);
+    if (engine.late && done == 1) child.signal(SIGTERM);
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
 }

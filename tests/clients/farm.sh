@@ -13,6 +13,7 @@ set -euo pipefail
 programs=$(realpath "$1") what=$2
 shift 2
 sinew=$programs/sinew
+[ "$(id -u)" -eq 0 ] || { echo "farm.sh: expected root, which Slurm's daemons run as, found another user"; exit 1; }
 
 work=$(mktemp -d)
 daemons=()
@@ -22,7 +23,8 @@ finish() {
   done
   for daemon in "${daemons[@]}"; do
     for ((i = 0; i < 50; ++i)); do
-      [ -s "$work/$daemon.pid" ] && [ -d "/proc/$(cat "$work/$daemon.pid")" ] || break
+      [ -s "$work/$daemon.pid" ] || break
+      kill -0 "$(cat "$work/$daemon.pid")" 2>/dev/null || break
       sleep 0.1
     done
   done
@@ -54,12 +56,16 @@ timed() {
   local name=$1 begin=$EPOCHREALTIME status=0
   shift
   "$@" || status=$?
-  printf '%-34s %7.1f s\n' "$name" "$(echo "$EPOCHREALTIME - $begin" | bc)"
+  printf '%-34s %7.1f s\n' "$name" "$(awk "BEGIN { print $EPOCHREALTIME - $begin }")"
   return "$status"
 }
 
-# A port that nobody has.
-free_port() { python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])'; }
+# A port on which nobody answers.
+free_port() {
+  local port
+  while port=$((20000 + RANDOM % 10000)) && (: <>"/dev/tcp/127.0.0.1/$port") 2>/dev/null; do :; done
+  echo "$port"
+}
 
 start_slurm() {
   local host controller=$1 daemon=$2
