@@ -186,10 +186,10 @@ TEST(Samples, SplatsAreDiscsOnTheSkin) {
   for (std::size_t i = 0; i < shape.size(); ++i) {
     const Vec3& p = shape.positions[i];
     const Implicit::Parts parts = animal().near_point(p, 0.02);
-    ASSERT_LT(std::abs(animal().distance(p, parts)), 2e-5);
+    ASSERT_LT(std::abs(animal().distance(p, parts)), 1e-4);
     const Eigen::Quaterniond q(rot.number(i, 0), rot.number(i, 1), rot.number(i, 2), rot.number(i, 3));
     ASSERT_NEAR(q.norm(), 1, 1e-6);
-    ASSERT_NEAR((q * Vec3::UnitZ()).dot(animal().normal(p, parts)), 1, 1e-4) << "the third axis is the normal";
+    ASSERT_NEAR((q * Vec3::UnitZ()).dot(animal().normal(p, parts)), 1, 1e-3) << "the third axis is the normal";
     ASSERT_LT(scale.number(i, 2), scale.number(i, 1) - 2) << "flat";
     shining += rest.number(i, 0) != 0;
   }
