@@ -41,3 +41,9 @@ if(SINEW_EDITOR)
     set_tests_properties(editor_${what} PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)
   endforeach()
 endif()
+
+# Programs of others that read what sinew writes. Only `ctest -C clients` knows these tests: they need what is not a
+# Debian package (scripts/check clients).
+add_test(NAME client_splat_transform CONFIGURATIONS clients
+         COMMAND ${CMAKE_SOURCE_DIR}/tests/clients/splat_transform.sh $<TARGET_FILE_DIR:sinew>)
+set_tests_properties(client_splat_transform PROPERTIES LABELS client TIMEOUT 900 SKIP_RETURN_CODE 77)

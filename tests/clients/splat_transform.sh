@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# splat_transform.sh PROGRAMS SHARED
+# splat_transform.sh PROGRAMS
 #
 # A program of others reads what Sinew bends: splat-transform (the npm package @playcanvas/splat-transform), which
 # converts and edits files of Gaussian splats.
 #   1. A bent file, converted by it: every name in its order and every value as we wrote it, also when it reads its own
 #      copy. Its count and bounds are those of sinew info.
 #   2. It turns and moves all splats itself: the same places, covariances and spherical harmonics as by sinew apply.
-# Files: the sample of splats, and a trained one where there is SHARED/data. Each comparison is shown planted defects
+# Files: the sample of splats, and a trained one where there is shared data. Each comparison is shown planted defects
 # first. Exit status 77: skipped, with the reason.
 set -euo pipefail
-programs=$1 shared=$2
+programs=$1
 here=$(dirname "${BASH_SOURCE[0]}")
+shared=${SINEW_SHARED:-$here/../../../shared}
 for tool in node splat-transform; do
   command -v "$tool" >/dev/null || { echo "skipped: $tool is not on the PATH"; exit 77; }
 done
