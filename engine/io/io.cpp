@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "engine/geometry/error.h"
+#include "engine/io/bgeo.h"
 #include "engine/io/bytes.h"
 #include "engine/io/input_file.h"
 #include "engine/io/mdd.h"
@@ -15,6 +16,8 @@
 #include "engine/io/ply.h"
 #include "engine/io/scan_set.h"
 #include "engine/io/stl.h"
+#include "engine/io/vtk.h"
+#include "engine/io/vtp.h"
 #include "engine/io/xyz.h"
 
 namespace sinew::io {
@@ -28,8 +31,29 @@ const std::vector<Format>& table() {
       {"OBJ", {"obj"}, "points, colours, normals, faces; everything else is kept", read_obj, write_obj},
       {"OFF", {"off"}, "points, colours, normals, faces; everything else is kept", read_off, write_off},
       {"XYZ", {"xyz", "asc", "txt", "pts"}, "rows of numbers; columns by name or by value", read_xyz, write_xyz},
+      {"CSV", {"csv"}, "rows of numbers with commas; columns by name or by value", read_csv, write_csv},
       {"PCD", {"pcd"}, "ascii, binary, compressed; all fields; everything else is kept", read_pcd, write_pcd},
       {"STL", {"stl"}, "ascii and binary; a soup of triangles, each with its normal", read_stl, write_stl},
+      {"bgeo",
+       {"bgeo"},
+       "classic (BgeoV 5); points, attributes, polygons; everything else is kept",
+       read_bgeo,
+       write_bgeo},
+      {"VTK",
+       {"vtk"},
+       "legacy, ascii and binary; points, data of points, polygons; everything else is kept",
+       read_vtk,
+       write_vtk},
+      {"VTP",
+       {"vtp"},
+       "XML, not compressed; points, data of points, polygons; everything else is kept",
+       read_vtp,
+       write_vtp},
+      {"VTU",
+       {"vtu"},
+       "XML, not compressed; points, data of points, polygons; everything else is kept",
+       read_vtp,
+       write_vtu},
       {"Scan set", {"conf"}, "scans in files of their own and the pose of each, as Stanford's", read_scan_set, nullptr},
       {"PC2", {"pc2"}, "frames of points, with their start and step", read_pc2, write_pc2, open_pc2, create_pc2},
       {"MDD", {"mdd"}, "frames of points, with their times", read_mdd, write_mdd, open_mdd, create_mdd},

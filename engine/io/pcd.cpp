@@ -14,21 +14,6 @@ namespace sinew::io {
 
 namespace {
 
-/// `token` as a T at `at`; false where it is no number or out of range.
-template <class T>
-bool parse_value(std::string_view token, std::byte* at) {
-  T x{};
-  if constexpr (std::is_floating_point_v<T>) {
-    if (!parse(token, x)) return false;
-  } else {
-    if (token.starts_with('+')) token.remove_prefix(1);
-    const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), x);
-    if (error != std::errc{} || end != token.data() + token.size()) return false;
-  }
-  store(at, x, false);
-  return true;
-}
-
 /// The values of text: as binary data would hold them.
 std::vector<std::byte> parsed(const std::string& path, std::span<const std::byte> bytes, const PcdHeader& header) {
   std::vector<std::byte> values(header.points * header.point_size);
@@ -40,7 +25,7 @@ std::vector<std::byte> parsed(const std::string& path, std::span<const std::byte
       const PcdField& field = header.fields[f];
       for (std::size_t c = 0; c < field.count; ++c, ++k) {
         const Token t = k == 0 ? first : cursor.token();
-        if (!with_type(field.type, [&](auto x) { return parse_value<decltype(x)>(t.text, at); })) {
+        if (!parse_value(t.text, field.type, at)) {
           if (t.text.empty() && cursor.at_end())
             throw text_error(path, t.line, t.column,
                              "point " + std::to_string(i + 1) + " of " + std::to_string(header.points),

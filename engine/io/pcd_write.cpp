@@ -5,6 +5,7 @@
 #include "engine/io/bytes.h"
 #include "engine/io/pcd.h"
 #include "engine/io/pcd_content.h"
+#include "engine/io/rounding.h"
 #include "engine/io/text_patch.h"
 #include "engine/io/values.h"
 
@@ -74,22 +75,6 @@ class LzfPacker {
   std::vector<std::byte> out_;
 };
 
-/// Says once how much was lost where values far from zero were rounded to the file's type.
-class Rounding {
- public:
-  void see(double wanted, double stored) {
-    if (std::isfinite(wanted)) worst_ = std::max(worst_, std::abs(wanted - stored));
-  }
-  void report(WriteReport& report) const {
-    if (worst_ > 0.5e-3)
-      report.lost.push_back("The file's type of coordinates rounds moved points by up to " +
-                            shortest(static_cast<float>(worst_)) + ".");
-  }
-
- private:
-  double worst_ = 0;
-};
-
 void store_positions(const Shape& shape, const PcdHeader& header, const PcdGroup& group, std::span<std::byte> values,
                      WriteReport& report) {
   Rounding rounding;
@@ -98,13 +83,7 @@ void store_positions(const Shape& shape, const PcdHeader& header, const PcdGroup
       const std::size_t f = group.fields[static_cast<std::size_t>(c)];
       std::byte* at = values.data() + header.at(f, i);
       with_type(header.fields[f].type, [&](auto x) {
-        using T = decltype(x);
-        const double now = shape.positions[i][c];
-        if (same_coordinate(static_cast<double>(load<T>(at, false)), shape.origin[c], now)) return 0;
-        const T stored = rounded<T>(now + shape.origin[c]);
-        if (!std::is_same_v<T, float> || std::abs(now + shape.origin[c]) >= float_limit)
-          rounding.see(now + shape.origin[c], static_cast<double>(stored));
-        store(at, stored, false);
+        patch_coordinate<decltype(x)>(at, false, shape.positions[i][c], shape.origin[c], rounding);
         return 0;
       });
     }
@@ -147,12 +126,7 @@ std::vector<std::byte> patched_text(const PcdContent& content, std::span<const s
       for (std::size_t c = 0; c < field.count; ++c, at += size_of(field.type)) {
         const Token t = cursor.next();
         if (std::memcmp(&before[at], &now[at], size_of(field.type)) == 0) continue;
-        with_type(field.type, [&](auto x) {
-          char buffer[32];
-          const auto [end, error] = std::to_chars(buffer, buffer + sizeof(buffer), load<decltype(x)>(&now[at], false));
-          patch.replace(t, {buffer, static_cast<std::size_t>(end - buffer)});
-          return 0;
-        });
+        patch.replace(t, value_text(field.type, &now[at]));
       }
   return patch.finish();
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/io/bytes.h"
+#include "engine/io/values.h"
 
 namespace sinew::io {
 
@@ -83,6 +84,28 @@ void append_number(std::vector<std::byte>& out, double x, Type type) {
 
 double as_read(double x, Type type) {
   return type == Type::Float32 ? static_cast<double>(static_cast<float>(x)) : x;
+}
+
+bool parse_value(std::string_view token, Type type, std::byte* at) {
+  return with_type(type, [&](auto x) {
+    if constexpr (std::is_floating_point_v<decltype(x)>) {
+      if (!parse(token, x)) return false;
+    } else {
+      if (token.starts_with('+')) token.remove_prefix(1);
+      const auto [end, error] = std::from_chars(token.data(), token.data() + token.size(), x);
+      if (error != std::errc{} || end != token.data() + token.size()) return false;
+    }
+    store(at, x, false);
+    return true;
+  });
+}
+
+std::string value_text(Type type, const std::byte* at) {
+  return with_type(type, [at](auto x) {
+    char buffer[32];
+    const auto [end, error] = std::to_chars(buffer, buffer + sizeof(buffer), load<decltype(x)>(at, false));
+    return std::string(buffer, end);
+  });
 }
 
 namespace {

@@ -54,6 +54,11 @@ void append_text(std::vector<std::byte>& out, std::string_view text);
 /// The double of a text as the value of an attribute or position of `type`: rounded to float for Float32.
 double as_read(double x, Type type);
 
+/// The whole of `token` as a value of `type`, stored at `at`; false where it is no number or out of range.
+bool parse_value(std::string_view token, Type type, std::byte* at);
+/// The shortest text of the value of `type` at `at`.
+std::string value_text(Type type, const std::byte* at);
+
 /// A copy of a file with some numbers replaced; all else, also how unchanged numbers are written, stays.
 class TextPatch {
  public:
@@ -99,11 +104,13 @@ void append_color(std::vector<std::byte>& out, const Attribute& color, std::size
 class UniqueNames {
  public:
   /// Names that only vectors and colours should have are taken from the start.
-  UniqueNames() : taken_{"position", "normal", "color"} {}
+  UniqueNames() : taken_{"position", "normal", "color", "velocity"} {}
   std::string add(const std::string& name);
+  /// Whether one of those is still free; it is not any more.
+  bool take(const std::string& name) { return used_.insert(name).second; }
 
  private:
-  std::set<std::string> taken_;
+  std::set<std::string> taken_, used_;
   std::map<std::string, int> last_;  ///< number given to a name
 };
 

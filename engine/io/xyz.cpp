@@ -22,6 +22,7 @@ struct Group {
 };
 
 struct XyzContent : FileContent {
+  bool csv = false;
   std::vector<std::byte> bytes;
   std::vector<std::size_t> rows;  ///< byte where each begins
   std::vector<Group> groups;
@@ -45,11 +46,15 @@ struct NamedGroup {
 const std::vector<NamedGroup>& named_groups() {
   static const std::vector<NamedGroup> groups{
       {"position", Kind::Point, 3, {"x", "y", "z"}},
+      {"position", Kind::Point, 3, {"points:0", "points:1", "points:2"}},
       {"normal", Kind::Normal, 3, {"nx", "ny", "nz"}},
       {"normal", Kind::Normal, 3, {"normal_x", "normal_y", "normal_z"}},
       {"color", Kind::Color, 3, {"r", "g", "b", "a"}},
       {"color", Kind::Color, 3, {"red", "green", "blue", "alpha"}},
       {"color", Kind::Color, 3, {"rf", "gf", "bf"}},
+      {"velocity", Kind::Velocity, 3, {"vx", "vy", "vz"}},
+      {"velocity", Kind::Velocity, 3, {"velocity_x", "velocity_y", "velocity_z"}},
+      {"velocity", Kind::Velocity, 3, {"velocity:0", "velocity:1", "velocity:2"}},
   };
   return groups;
 }
@@ -58,18 +63,37 @@ bool has_group(const std::vector<Group>& groups, const std::string& name) {
   return std::any_of(groups.begin(), groups.end(), [&](const Group& group) { return group.name == name; });
 }
 
-std::vector<Group> groups_by_name(const std::vector<std::string>& names) {
+std::vector<std::string> keys_of(const std::vector<std::string>& names) {
   std::vector<std::string> keys;
   for (const std::string& name : names) keys.push_back(lower(name));
+  return keys;
+}
+
+/// The columns of a group as far as they are there.
+std::vector<std::size_t> columns_of(const NamedGroup& known, const std::vector<std::string>& keys) {
+  std::vector<std::size_t> columns;
+  for (const char* key : known.columns) {
+    const auto at = std::find(keys.begin(), keys.end(), key);
+    if (at == keys.end()) break;
+    columns.push_back(static_cast<std::size_t>(at - keys.begin()));
+  }
+  return columns;
+}
+
+/// Names of columns are a line of names where x, y and z are among them.
+bool has_position(const std::vector<std::string>& names) {
+  const std::vector<std::string> keys = keys_of(names);
+  return std::any_of(named_groups().begin(), named_groups().end(), [&](const NamedGroup& known) {
+    return known.kind == Kind::Point && columns_of(known, keys).size() == known.needed;
+  });
+}
+
+std::vector<Group> groups_by_name(const std::vector<std::string>& names) {
+  const std::vector<std::string> keys = keys_of(names);
   std::vector<bool> taken(names.size(), false);
   std::vector<Group> groups;
   for (const NamedGroup& known : named_groups()) {
-    Group group{known.name, known.kind, {}};
-    for (const char* key : known.columns) {
-      const auto at = std::find(keys.begin(), keys.end(), key);
-      if (at == keys.end()) break;
-      group.columns.push_back(static_cast<std::size_t>(at - keys.begin()));
-    }
+    const Group group{known.name, known.kind, columns_of(known, keys)};
     if (group.columns.size() < known.needed || has_group(groups, known.name)) continue;
     for (const std::size_t c : group.columns) taken[c] = true;
     groups.push_back(group);
@@ -81,6 +105,26 @@ std::vector<Group> groups_by_name(const std::vector<std::string>& names) {
     groups.push_back({unique.add(names[c]), id ? Kind::Id : Kind::Scalar, {c}});
   }
   return groups;
+}
+
+/// The names in a line, two ways: "my speed, x" has blanks in names where separators stand between them.
+std::vector<std::vector<std::string>> split_names(std::string_view line) {
+  std::vector<std::vector<std::string>> ways(2);
+  XyzFields fields(line);
+  for (std::string_view field; fields.next(field) && ways[0].size() <= most_columns;) ways[0].emplace_back(field);
+  const std::string_view blanks = " \t\v\f\r";
+  while (line.find_first_not_of(blanks) != std::string_view::npos && ways[1].size() <= most_columns) {
+    line.remove_prefix(line.find_first_not_of(blanks));
+    const std::size_t quote = line.front() == '"' ? line.find('"', 1) : std::string_view::npos;
+    const std::size_t end =
+        std::min(line.find_first_of(",;\t", quote == std::string_view::npos ? 0 : quote), line.size());
+    std::string_view name = line.substr(0, end);
+    name = name.substr(0, name.find_last_not_of(blanks) + 1);
+    if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
+    ways[1].emplace_back(name);
+    line.remove_prefix(std::min(end + 1, line.size()));
+  }
+  return ways;
 }
 
 using Columns = std::vector<std::vector<double>>;
@@ -131,9 +175,10 @@ std::vector<Group> groups_by_value(const Columns& columns) {
 
 class XyzReader {
  public:
-  XyzReader(std::string path, std::vector<std::byte> bytes, const ReadOptions& options)
+  XyzReader(std::string path, std::vector<std::byte> bytes, bool csv, const ReadOptions& options)
       : path_(std::move(path)), options_(options), content_(std::make_shared<XyzContent>()) {
     content_->bytes = std::move(bytes);
+    content_->csv = csv;
   }
 
   Shape read() {
@@ -162,7 +207,7 @@ class XyzReader {
   void read_line(std::string_view line, std::size_t begin) {
     const std::string_view comment = xyz_comment(line);
     if (comment.data() != nullptr) {
-      if (content_->rows.empty()) read_names(comment);
+      if (content_->rows.empty()) read_names(comment, true);
       return;
     }
     XyzFields fields(line);
@@ -171,7 +216,7 @@ class XyzReader {
     if (content_->rows.empty()) {
       double x = 0;
       if (!parse(field, x)) {
-        if (!read_names(line)) throw error(line, field, "a number, or names of columns with x, y and z");
+        if (!read_names(line, false)) throw error(line, field, "a number, or names of columns with x, y and z");
         return;
       }
       if (read_count(line)) return;
@@ -179,20 +224,16 @@ class XyzReader {
     read_row(line, begin);
   }
 
-  /// A line is one of names where x, y and z are among them.
-  bool read_names(std::string_view line) {
-    std::vector<std::string> names;
-    XyzFields fields(line);
-    for (std::string_view field; fields.next(field) && names.size() <= most_columns;) {
-      if (field.size() > 1 && field.front() == '"' && field.back() == '"') field = field.substr(1, field.size() - 2);
-      names.emplace_back(field);
+  bool read_names(std::string_view line, bool comment) {
+    bool good = false;
+    for (std::vector<std::string>& names : split_names(line)) {
+      if (names.size() > most_columns || !has_position(names)) continue;
+      if (!good) names_.clear();
+      good = true;
+      names_.push_back(std::move(names));
     }
-    const auto is_there = [&](const char* key) {
-      return std::any_of(names.begin(), names.end(), [&](const std::string& name) { return lower(name) == key; });
-    };
-    if (names.size() > most_columns || !is_there("x") || !is_there("y") || !is_there("z")) return false;
-    names_ = std::move(names);
-    return true;
+    if (good) names_line_ = comment ? 0 : line_;
+    return good;
   }
 
   bool read_count(std::string_view line) {
@@ -232,8 +273,18 @@ class XyzReader {
                       std::to_string(count));
   }
 
+  /// Names count where they are as many as the columns. A comment may be about anything.
+  void choose_names() {
+    for (std::vector<std::string>& names : names_)
+      if (names.size() == columns_.size()) column_names_ = std::move(names);
+    if (column_names_.empty() && names_line_ > 0)
+      throw text_error(path_, names_line_, 0, "a name for each of the " + std::to_string(columns_.size()) + " columns",
+                       std::to_string(names_.back().size()));
+  }
+
   Shape finish() {
-    content_->groups = has_names() ? groups_by_name(names_) : groups_by_value(columns_);
+    choose_names();
+    content_->groups = has_names() ? groups_by_name(column_names_) : groups_by_value(columns_);
     Shape shape;
     take_positions(shape, content_->groups.front());
     for (std::size_t g = 1; g < content_->groups.size(); ++g) add_attribute(shape, content_->groups[g]);
@@ -266,18 +317,18 @@ class XyzReader {
     std::vector<std::string> fields;
     for (std::size_t k = 0; k < size; ++k) {
       const std::size_t c = group.columns[k];
-      fields.push_back(has_names() ? names_[c] : size == 1 ? group.name : group_field(group, k));
+      fields.push_back(has_names() ? column_names_[c] : size == 1 ? group.name : group_field(group, k));
       for (std::size_t i = 0; i < n; ++i) values[i * size + k] = columns_[c][i];
       columns_[c] = {};
     }
     shape.attributes.push_back(number_attribute(group.name, std::move(fields), group.kind, type, values));
   }
 
-  bool has_names() const { return names_.size() == columns_.size(); }
+  bool has_names() const { return !column_names_.empty(); }
 
   /// By CloudCompare's habit Rf Gf Bf are fractions.
   bool is_byte_color(const Group& group) const {
-    if (group.kind != Kind::Color || (has_names() && lower(names_[group.columns.front()]) == "rf")) return false;
+    if (group.kind != Kind::Color || (has_names() && lower(column_names_[group.columns.front()]) == "rf")) return false;
     return std::all_of(group.columns.begin(), group.columns.end(),
                        [&](std::size_t c) { return are_bytes(columns_[c]); });
   }
@@ -292,8 +343,10 @@ class XyzReader {
   std::shared_ptr<XyzContent> content_;
   std::int64_t line_ = 0;
   Columns columns_;
-  std::vector<Precision> precision_;  ///< of each column
-  std::vector<std::string> names_;
+  std::vector<Precision> precision_;             ///< of each column
+  std::vector<std::vector<std::string>> names_;  ///< the ways to read the line of names
+  std::int64_t names_line_ = 0;                  ///< 0: a comment
+  std::vector<std::string> column_names_;
   std::optional<std::int64_t> count_;  ///< said by a line of its own
   std::int64_t count_line_ = 0;
 };
@@ -341,6 +394,10 @@ std::vector<std::byte> patched(const Shape& shape, const XyzContent& content) {
   return patch.finish();
 }
 
+bool is_velocity(const Attribute& attribute) {
+  return attribute.name == "velocity" && attribute.kind == Kind::Velocity && attribute.components == 3;
+}
+
 /// Names of columns that groups_by_name reads back as the same attribute.
 std::vector<std::string> names_of(const Attribute& attribute) {
   if (attribute.name == "color" && attribute.kind == Kind::Color) {
@@ -349,12 +406,14 @@ std::vector<std::string> names_of(const Attribute& attribute) {
     return attribute.components == 4 ? std::vector<std::string>{"R", "G", "B", "A"}
                                      : std::vector<std::string>{"R", "G", "B"};
   }
+  if (is_velocity(attribute)) return {"vx", "vy", "vz"};
   if (attribute.name == "normal") return {"Nx", "Ny", "Nz"};
   std::vector<std::string> names;
   for (const std::string& field : attribute.fields) {
     names.push_back(field);
     for (char& c : names.back())
-      if (c == ' ' || c == '\t' || c == ',' || c == ';' || c == '#' || c == '/' || c == '\n' || c == '\r') c = '_';
+      if (c == ' ' || c == '\t' || c == ',' || c == ';' || c == '#' || c == '/' || c == '"' || c == '\n' || c == '\r')
+        c = '_';
   }
   return names;
 }
@@ -364,26 +423,28 @@ bool can_hold(const Attribute& attribute) {
   if (attribute.name == "color" || attribute.kind == Kind::Color)
     return attribute.name == "color" && is_text_color(attribute);
   if (attribute.name == "normal") return attribute.kind == Kind::Normal && attribute.components == 3;
-  return attribute.components == 1;
+  return attribute.components == 1 || is_velocity(attribute);
 }
 
-std::vector<std::byte> generic(const Shape& shape, WriteReport& report) {
+/// A new file. Its values are separated by blanks, or in CSV by commas.
+std::vector<std::byte> generic(const Shape& shape, bool csv, WriteReport& report) {
+  const std::string format = csv ? "CSV" : "XYZ";
   std::vector<const Attribute*> attributes;
   std::vector<std::string> held;
-  std::string names = "//X Y Z";
+  std::string names = csv ? "x y z" : "//X Y Z";
   for (const Attribute& attribute : shape.attributes) {
     if (!can_hold(attribute)) continue;
     attributes.push_back(&attribute);
     held.push_back(attribute.name);
     for (const std::string& name : names_of(attribute)) names += " " + name;
   }
-  report_lost_attributes("XYZ", shape, held, report);
+  report_lost_attributes(format, shape, held, report);
   if (!shape.faces.empty())
-    report.lost.push_back("XYZ cannot hold the " + counted(shape.faces.size(), "face", "faces") + ".");
+    report.lost.push_back(format + " cannot hold the " + counted(shape.faces.size(), "face", "faces") + ".");
 
   std::vector<std::byte> out;
   out.reserve(shape.size() * 32);
-  if (!attributes.empty()) append_text(out, names + "\n");
+  if (csv || !attributes.empty()) append_text(out, names + "\n");
   for (std::size_t i = 0; i < shape.size(); ++i) {
     for (int c = 0; c < 3; ++c) {
       if (c > 0) append_text(out, " ");
@@ -401,22 +462,35 @@ std::vector<std::byte> generic(const Shape& shape, WriteReport& report) {
     }
     append_text(out, "\n");
   }
+  if (csv) std::replace(out.begin(), out.end(), std::byte{' '}, std::byte{','});
   return out;
+}
+
+std::vector<std::byte> write(const Shape& shape, bool csv, WriteReport& report) {
+  const auto* content = dynamic_cast<const XyzContent*>(shape.content.get());
+  if (!content || content->csv != csv || !same_layout(shape, *content)) return generic(shape, csv, report);
+  std::vector<std::string> held;
+  for (const Group& group : content->groups) held.push_back(group.name);
+  report_lost_attributes(csv ? "CSV" : "XYZ", shape, held, report);
+  return patched(shape, *content);
 }
 
 }  // namespace
 
 Shape read_xyz(const std::string& path, std::vector<std::byte> bytes, const ReadOptions& options) {
-  return XyzReader(path, std::move(bytes), options).read();
+  return XyzReader(path, std::move(bytes), false, options).read();
 }
 
 std::vector<std::byte> write_xyz(const std::string&, const Shape& shape, WriteReport& report) {
-  const auto* content = dynamic_cast<const XyzContent*>(shape.content.get());
-  if (!content || !same_layout(shape, *content)) return generic(shape, report);
-  std::vector<std::string> held;
-  for (const Group& group : content->groups) held.push_back(group.name);
-  report_lost_attributes("XYZ", shape, held, report);
-  return patched(shape, *content);
+  return write(shape, false, report);
+}
+
+Shape read_csv(const std::string& path, std::vector<std::byte> bytes, const ReadOptions& options) {
+  return XyzReader(path, std::move(bytes), true, options).read();
+}
+
+std::vector<std::byte> write_csv(const std::string&, const Shape& shape, WriteReport& report) {
+  return write(shape, true, report);
 }
 
 }  // namespace sinew::io

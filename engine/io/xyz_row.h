@@ -6,7 +6,8 @@
 
 namespace sinew::io {
 
-/// The fields of one line, separated by blanks and tabs, or by a comma or semicolon with blanks around it.
+/// The fields of one line, separated by blanks and tabs, or by a comma or semicolon with blanks around it. A field in
+/// quotes ends at its second quote and is given without them.
 class XyzFields {
  public:
   explicit XyzFields(std::string_view line) : line_(line) { skip_blanks(); }
@@ -15,18 +16,30 @@ class XyzFields {
   /// give an empty field.
   bool next(std::string_view& field) {
     if (at_ == line_.size() || line_[at_] == '#' || line_.substr(at_).starts_with("//")) return false;
+    if (quoted_field(field)) return true;
     const std::size_t begin = at_;
     while (at_ < line_.size() && !is_blank(line_[at_]) && !is_separator(line_[at_])) ++at_;
     field = line_.substr(begin, at_ - begin);
-    skip_blanks();
-    if (at_ < line_.size() && is_separator(line_[at_])) {
-      ++at_;
-      skip_blanks();
-    }
+    skip_separator();
     return true;
   }
 
  private:
+  bool quoted_field(std::string_view& field) {
+    if (line_[at_] != '"') return false;
+    const std::size_t end = line_.find('"', at_ + 1);
+    if (end == std::string_view::npos) return false;
+    field = line_.substr(at_ + 1, end - at_ - 1);
+    at_ = end + 1;
+    skip_separator();
+    return true;
+  }
+  void skip_separator() {
+    skip_blanks();
+    if (at_ == line_.size() || !is_separator(line_[at_])) return;
+    ++at_;
+    skip_blanks();
+  }
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f' || c == '\r'; }
   static bool is_separator(char c) { return c == ',' || c == ';'; }
   void skip_blanks() {

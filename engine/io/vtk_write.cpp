@@ -1,0 +1,97 @@
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "engine/io/text_patch.h"
+#include "engine/io/values.h"
+#include "engine/io/vtk.h"
+#include "engine/io/vtk_array.h"
+
+namespace sinew::io {
+
+namespace {
+
+constexpr bool swap_big = std::endian::native != std::endian::big;
+
+/// Special characters of names as %20.
+std::string encoded(const std::string& name) {
+  static constexpr char hex[] = "0123456789ABCDEF";
+  std::string out;
+  for (const char c : name) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte > ' ' && byte < 127 && c != '%' && c != '"') {
+      out += c;
+    } else {
+      out += {'%', hex[byte >> 4], hex[byte & 15]};
+    }
+  }
+  return out.empty() ? "unnamed" : out;
+}
+
+const char* vtk_name(Type type) {
+  static constexpr const char* names[] = {"char",         "unsigned_char", "short",         "unsigned_short", "int",
+                                          "unsigned_int", "vtktypeint64",  "vtktypeuint64", "float",          "double"};
+  return names[static_cast<int>(type)];
+}
+
+void append_values(std::vector<std::byte>& out, Type type, std::span<const std::byte> values) {
+  const std::size_t size = size_of(type), begin = out.size();
+  out.insert(out.end(), values.begin(), values.end());
+  if (swap_big)
+    for (std::size_t i = begin; i < out.size(); i += size)
+      std::reverse(out.begin() + static_cast<std::ptrdiff_t>(i), out.begin() + static_cast<std::ptrdiff_t>(i + size));
+  append_text(out, "\n");
+}
+
+void append_int(std::vector<std::byte>& out, std::size_t x) {
+  std::byte bytes[4];
+  store(bytes, static_cast<std::int32_t>(x), swap_big);
+  out.insert(out.end(), bytes, bytes + sizeof(bytes));
+}
+
+std::vector<std::byte> new_vtk(const std::string& path, const Shape& shape, WriteReport& report) {
+  const std::size_t n = shape.size(), faces = shape.faces.size(), numbers = faces + shape.faces.points.size();
+  const std::size_t most = std::numeric_limits<std::int32_t>::max();
+  if (n > most / 2 || numbers > most) throw file_error(path, "a VTK file of less than 2^31 numbers of cells", "more");
+  std::vector<std::byte> out;
+  append_text(out, "# vtk DataFile Version 3.0\npoints\nBINARY\nDATASET POLYDATA\nPOINTS " + std::to_string(n) + " " +
+                       vtk_name(shape.position_type) + "\n");
+  append_values(out, shape.position_type, new_vtk_points(shape, report));
+  if (faces == 0) {
+    append_text(out, "VERTICES " + std::to_string(n) + " " + std::to_string(2 * n) + "\n");
+    for (std::size_t i = 0; i < n; ++i) {
+      append_int(out, 1);
+      append_int(out, i);
+    }
+  } else {
+    append_text(out, "POLYGONS " + std::to_string(faces) + " " + std::to_string(numbers) + "\n");
+    for (std::size_t f = 0; f < faces; ++f) {
+      append_int(out, shape.faces[f].size());
+      for (const Index p : shape.faces[f]) append_int(out, p);
+    }
+  }
+  append_text(out, "\n");
+  const std::vector<Attribute> attributes = new_vtk_attributes(shape, "VTK", report);
+  if (attributes.empty()) return out;
+  append_text(out, "POINT_DATA " + std::to_string(n) + "\nFIELD FieldData " + std::to_string(attributes.size()) + "\n");
+  for (const Attribute& a : attributes) {
+    append_text(out, encoded(a.name) + " " + std::to_string(a.components) + " " + std::to_string(n) + " " +
+                         vtk_name(a.type) + "\n");
+    append_values(out, a.type, a.values);
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::byte> write_vtk(const std::string& path, const Shape& shape, WriteReport& report) {
+  const auto* content = dynamic_cast<const VtkContent*>(shape.content.get());
+  if (content && fits_vtk(shape, *content, VtkContent::Form::Legacy)) return patched_vtk(shape, *content, report);
+  if (content && content->form == VtkContent::Form::Legacy)
+    report.lost.push_back(
+        "What the VTK file held besides points, data of points and polygons is not written: the "
+        "points, attributes or faces are no longer those of the file.");
+  return new_vtk(path, shape, report);
+}
+
+}  // namespace sinew::io
