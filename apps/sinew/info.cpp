@@ -3,10 +3,13 @@
 #include <algorithm>
 
 #include "apps/sinew/command.h"
-#include "apps/sinew/files.h"
+#include "apps/sinew/frames.h"
+#include "apps/sinew/progress.h"
 #include "engine/document/json.h"
 #include "engine/document/report.h"
 #include "engine/geometry/bounds.h"
+#include "engine/io/frame_pattern.h"
+#include "engine/io/io.h"
 #include "engine/io/text.h"
 
 namespace sinew::app {
@@ -19,31 +22,49 @@ struct Options {
   std::string from;
 };
 
-/// What is shown of a file.
+/// What is shown of a file or a sequence.
 struct Info {
   std::string path;
-  document::InputReport input;
-  std::size_t not_finite = 0;
-  Vec3 min = Vec3::Zero(), max = Vec3::Zero();  ///< in the file's coordinates
+  document::InputReport input;  ///< of the first frame, but for the count of frames
+  std::vector<int> frames;
+  double rate = 24;
+  std::size_t least_points = 0, most_points = 0, not_finite = 0;  ///< of all frames
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();                    ///< of all frames, in the file's coordinates
   double diagonal = 0;
-  bool empty = false;  ///< no finite point: no bounds
-  std::shared_ptr<const Shape> shape;
+  bool empty = true;                   ///< no finite point: no bounds
+  std::shared_ptr<const Shape> shape;  ///< the first frame
 };
+
+void add_frame(Info& info, const Shape& shape) {
+  info.least_points = std::min(info.least_points, shape.size());
+  info.most_points = std::max(info.most_points, shape.size());
+  info.not_finite += static_cast<std::size_t>(
+      std::count_if(shape.positions.begin(), shape.positions.end(), [](const Vec3& p) { return !p.allFinite(); }));
+  const Bounds bounds = bounds_of(shape.positions);
+  if (bounds.empty()) return;
+  const Vec3 min = bounds.min + shape.origin, max = bounds.max + shape.origin;
+  info.min = info.empty ? min : info.min.cwiseMin(min);
+  info.max = info.empty ? max : info.max.cwiseMax(max);
+  info.diagonal = info.frames.size() == 1 ? bounds.diagonal() : (info.max - info.min).norm();
+  info.empty = false;
+}
 
 Info info_of(const std::string& path, const std::string& from) {
   Info info;
   info.path = path;
-  info.shape = read_input(path, from);
-  const Shape& shape = *info.shape;
-  info.input = document::report_of(shape);
-  info.not_finite = static_cast<std::size_t>(
-      std::count_if(shape.positions.begin(), shape.positions.end(), [](const Vec3& p) { return !p.allFinite(); }));
-  const Bounds bounds = bounds_of(shape.positions);
-  info.empty = bounds.empty();
-  if (info.empty) return info;
-  info.min = bounds.min + shape.origin;
-  info.max = bounds.max + shape.origin;
-  info.diagonal = bounds.diagonal();
+  const Sequence sequence = open_input(path, from, "");
+  info.frames = sequence.frames;
+  info.rate = sequence.rate;
+  info.shape = sequence.load(sequence.frames.front());
+  info.input = document::report_of(*info.shape);
+  info.input.frames = sequence.frames.size();
+  info.least_points = info.most_points = info.shape->size();
+  add_frame(info, *info.shape);
+  Progress progress("reading " + path);
+  for (std::size_t i = 1; i < sequence.frames.size(); ++i) {
+    if (!progress(static_cast<double>(i) / static_cast<double>(sequence.frames.size()))) throw io::Cancelled();
+    add_frame(info, *sequence.load(sequence.frames[i]));
+  }
   return info;
 }
 
@@ -69,6 +90,12 @@ void write_json(document::JsonWriter& out, const Info& info) {
   out.begin_object();
   member(out, "file", info.path);
   document::write_members(out, info.input);
+  if (info.frames.size() > 1) {
+    member(out, "frame_range", io::frames_text(info.frames));
+    member(out, "rate", info.rate);
+    member(out, "least_points", info.least_points);
+    member(out, "most_points", info.most_points);
+  }
   member(out, "not_finite", info.not_finite);
   if (!info.empty) {
     out.key("bounds");
@@ -111,11 +138,15 @@ void print_text(const Info& info) {
   const Shape& shape = *info.shape;
   fmt::print("{}\n", info.path);
   print_row("representation", info.input.representation);
-  print_row("points", std::to_string(info.input.points) +
-                          (info.not_finite > 0 ? fmt::format(" ({} not finite)", info.not_finite) : ""));
+  print_row("points",
+            (info.least_points == info.most_points ? std::to_string(info.most_points)
+                                                   : fmt::format("{} to {}", info.least_points, info.most_points)) +
+                (info.not_finite > 0 ? fmt::format(" ({} not finite)", info.not_finite) : ""));
   print_row("faces", std::to_string(info.input.faces));
   print_row("components", std::to_string(info.input.components));
-  print_row("frames", std::to_string(info.input.frames));
+  print_row("frames", info.frames.size() == 1 ? "1"
+                                              : fmt::format("{}: {}, {} a second", info.frames.size(),
+                                                            io::frames_text(info.frames), io::shortest(info.rate)));
   if (!info.empty) {
     print_row("min", point(info.min));
     print_row("max", point(info.max));
@@ -150,7 +181,7 @@ int run(const Options& options) {
 
 std::function<int()> declare_info(Arguments& arguments) {
   const auto options = std::make_shared<Options>();
-  arguments.positionals("FILE", options->files, "Files to look at; - with --from");
+  arguments.positionals("FILE", options->files, "Files and runs of files (run.####.obj) to look at; - with --from");
   arguments.flag("--json", options->json, "One JSON object; for several files an array of them");
   arguments.option("--from", "EXT", options->from, "Format of standard input, by an extension");
   return [options] { return run(*options); };

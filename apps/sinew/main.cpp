@@ -16,6 +16,7 @@ constexpr Command commands[] = {
     {"info", "Shows what files hold: representation, points, faces, components, bounds, attributes",
      "  sinew info scan.ply\n"
      "  sinew info --json *.obj\n"
+     "  sinew info 'walk.####.obj'\n"
      "  zcat scan.ply.gz | sinew info - --from ply",
      declare_info},
     {"deform", "Solves an edit and writes the bent file",
@@ -43,6 +44,7 @@ constexpr Command commands[] = {
     {"convert", "Reads a file and writes it, changing nothing but the format",
      "  sinew convert scan.pcd scan.ply\n"
      "  sinew convert bun.conf merged.ply\n"
+     "  sinew convert 'walk.####.obj' walk.pc2 --frames 1-48\n"
      "  cat mesh.off | sinew convert - mesh.obj --from off",
      declare_convert},
     {"render", "Draws a picture of a file, or of what an edit makes of it, without a display",

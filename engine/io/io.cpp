@@ -6,6 +6,7 @@
 #include "engine/geometry/error.h"
 #include "engine/io/bgeo.h"
 #include "engine/io/bytes.h"
+#include "engine/io/gltf.h"
 #include "engine/io/input_file.h"
 #include "engine/io/mdd.h"
 #include "engine/io/obj.h"
@@ -57,6 +58,8 @@ const std::vector<Format>& table() {
       {"Scan set", {"conf"}, "scans in files of their own and the pose of each, as Stanford's", read_scan_set, nullptr},
       {"PC2", {"pc2"}, "frames of points, with their start and step", read_pc2, write_pc2, open_pc2, create_pc2},
       {"MDD", {"mdd"}, "frames of points, with their times", read_mdd, write_mdd, open_mdd, create_mdd},
+      {"glTF", {"gltf"}, "a mesh and its frames as morph targets", read_gltf, write_gltf, open_gltf, create_gltf},
+      {"glTF binary", {"glb"}, "as glTF, in one binary file", read_gltf, write_glb, open_gltf, create_glb},
   };
   return rows;
 }

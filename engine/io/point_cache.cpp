@@ -56,23 +56,17 @@ std::vector<std::byte> coordinates_of(const PointCacheKind& kind, const Shape& s
   const PointCacheContent* content = content_of(kind, shape);
   std::vector<std::byte> out = content != nullptr ? content->coordinates : std::vector<std::byte>(12 * shape.size());
   std::byte* at = out.data();
-  double rounding = 0;
   for (const Vec3& p : shape.positions)
     for (int c = 0; c < 3; ++c, at += sizeof(float)) {
       const bool swap = is_swapped(kind);
       if (content != nullptr && same_coordinate(static_cast<double>(load<float>(at, swap)), shape.origin[c], p[c]))
         continue;
-      const double x = p[c] + shape.origin[c];
-      store(at, static_cast<float>(x), swap);
-      const double by = std::abs(static_cast<double>(static_cast<float>(x)) - x);
-      if (std::isfinite(by)) rounding = std::max(rounding, by);
+      store(at, static_cast<float>(p[c] + shape.origin[c]), swap);
     }
-  const auto lose = [&](const std::string& what) {
-    report.lost.push_back(std::string(kind.name) + " cannot hold " + what + ".");
-  };
-  if (!shape.faces.empty()) lose(counted(shape.faces.size(), "face", "faces"));
-  if (shape.position_type == Type::Float64 && rounding > 0)
-    lose("coordinates beyond float: they change by up to " + shortest(static_cast<float>(rounding)));
+  if (!shape.faces.empty())
+    report.lost.push_back(std::string(kind.name) + " cannot hold " + counted(shape.faces.size(), "face", "faces") +
+                          ".");
+  report_lost_precision(kind.name, shape, report);
   report_lost_attributes(kind.name, shape, {}, report);
   return out;
 }

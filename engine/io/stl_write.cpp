@@ -99,15 +99,7 @@ void report_losses(const Shape& shape, const Triangles& triangles, WriteReport& 
   if (shared > 0) lose("points that faces share: each triangle has its own");
   const auto loose = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
   if (loose > 0) lose(counted(loose, "point", "points") + " of no face");
-  double rounding = 0;
-  for (const Vec3& p : shape.positions)
-    for (int c = 0; c < 3; ++c) {
-      const double x = p[c] + shape.origin[c];
-      const double by = std::abs(static_cast<double>(static_cast<float>(x)) - x);
-      if (std::isfinite(by)) rounding = std::max(rounding, by);
-    }
-  if (shape.position_type == Type::Float64 && rounding > 0)
-    lose("coordinates beyond float: they change by up to " + shortest(static_cast<float>(rounding)));
+  report_lost_precision("STL", shape, report);
   const Attribute* normal = shape.find("normal");
   const bool of_facets = normal != nullptr && !normal->per_point();
   report_lost_attributes("STL", shape, of_facets ? std::vector<std::string>{"normal"} : std::vector<std::string>{},

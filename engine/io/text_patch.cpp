@@ -224,6 +224,20 @@ void report_lost_attributes(const std::string& format, const Shape& shape, const
                           " scans and their poses.");
 }
 
+void report_lost_precision(const std::string& format, const Shape& shape, WriteReport& report) {
+  if (shape.position_type != Type::Float64) return;
+  double rounding = 0;
+  for (const Vec3& p : shape.positions)
+    for (int c = 0; c < 3; ++c) {
+      const double x = p[c] + shape.origin[c];
+      const double by = std::abs(static_cast<double>(static_cast<float>(x)) - x);
+      if (std::isfinite(by)) rounding = std::max(rounding, by);
+    }
+  if (rounding > 0)
+    report.lost.push_back(format + " cannot hold coordinates beyond float: they change by up to " +
+                          shortest(static_cast<float>(rounding)) + ".");
+}
+
 std::string counted(std::size_t count, const char* singular, const char* plural) {
   return std::to_string(count) + " " + (count == 1 ? singular : plural);
 }

@@ -119,6 +119,9 @@ class UniqueNames {
 void report_lost_attributes(const std::string& format, const Shape& shape, const std::vector<std::string>& held,
                             WriteReport& report);
 
+/// "NAME cannot hold coordinates beyond float: they change by up to 1e-09." where the shape has doubles and some do.
+void report_lost_precision(const std::string& format, const Shape& shape, WriteReport& report);
+
 /// "1 point", "2 points"
 std::string counted(std::size_t count, const char* singular, const char* plural);
 

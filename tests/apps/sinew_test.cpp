@@ -109,7 +109,8 @@ TEST_F(Sinew, BadInputIsStatus3AndLeavesNothing) {
   EXPECT_EQ(run_sinew({"info", folder / "none.ply"}).status, 3);
   EXPECT_EQ(run_sinew({"info", folder.path().string()}).status, 3);
   EXPECT_EQ(run_sinew({"info", folder / "frame.####.obj"}).err,
-            "sinew: " + (folder / "frame.####.obj") + ": expected one file, found the name of a sequence of frames\n");
+            "sinew: " + (folder / "frame.####.obj") + ": expected a file a frame, such as " +
+                (folder / "frame.0001.obj") + ", found no file of such a name\n");
   EXPECT_EQ(names(), (std::vector<std::string>{"edit.json", "scan.ply"}));
 }
 

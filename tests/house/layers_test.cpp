@@ -41,7 +41,7 @@ const std::map<std::string, std::vector<std::string>>& third_party() {
       {"lzf.h", {"engine/io/pcd.cpp"}},
       {"png.h", {"engine/gpu/png.cpp"}},
       {"vulkan/", {"engine/gpu/vulkan.h"}},
-      {"nlohmann/", {"engine/document/json_parse.cpp"}},
+      {"nlohmann/", {"engine/document/json_parse.cpp", "engine/io/json_tree.cpp"}},
       {"CLI/", {"apps/sinew/command_line.cpp", "apps/samples/main.cpp", "apps/editor/main.cpp"}},
       {"GLFW/", {"apps/editor/window.cpp", "apps/editor/gui.cpp"}},
       {"imgui", {"apps/editor/*"}},
