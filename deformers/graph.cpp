@@ -7,7 +7,6 @@
 #include "deformers/graph_influence.h"
 #include "deformers/graph_nodes.h"
 #include "deformers/graph_solver.h"
-#include "deformers/graph_weights.h"
 #include "engine/geometry/bounds.h"
 #include "engine/geometry/error.h"
 
@@ -57,15 +56,15 @@ std::vector<Index> nearest_points(const Shape& shape, std::span<const Vec3> to) 
 class GraphDeformer final : public Deformer {
  public:
   GraphDeformer(std::shared_ptr<const Shape> rest, const GraphOptions& options, std::vector<Vec3> nodes,
-                GraphInfluence influence, SkinWeights weights, std::vector<std::string> notes)
+                GraphInfluence influence, GraphInfluence::Bound bound, std::vector<std::string> notes)
       : rest_(std::move(rest)),
         unit_(normalization_of(bounds_of(rest_->positions))),
         nodes_(std::move(nodes)),
         influence_(std::move(influence)),
-        weights_(std::move(weights)),
+        weights_(std::move(bound.weights)),
         notes_(std::move(notes)),
-        solver_(normalised(nodes_), influence_edges(weights_, nodes_.size()),
-                {options.w_rot, options.w_reg, options.w_con}, options.plain) {
+        solver_(normalised(nodes_), std::move(bound.edges), {options.w_rot, options.w_reg, options.w_con},
+                options.plain) {
     publish();
   }
 
@@ -275,11 +274,11 @@ std::unique_ptr<Deformer> make_graph_deformer(std::shared_ptr<const Shape> rest,
   std::vector<Vec3> nodes = choose_nodes(*rest, options, notes);
   if (progress && !progress(0.2)) return nullptr;
   GraphInfluence influence(nodes, {options.neighbours, options.surface, options.cuts});
-  std::optional<SkinWeights> weights =
+  std::optional<GraphInfluence::Bound> bound =
       influence.bind_shape(*rest, notes, [&](double done) { return !progress || progress(0.2 + 0.8 * done); });
-  if (!weights) return nullptr;
+  if (!bound) return nullptr;
   return std::make_unique<GraphDeformer>(std::move(rest), options, std::move(nodes), std::move(influence),
-                                         std::move(*weights), std::move(notes));
+                                         std::move(*bound), std::move(notes));
 }
 
 Method graph_method() {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "deformers/graph_weights.h"
 #include "deformers/surface_distance.h"
-#include "engine/geometry/parallel.h"
 
 namespace sinew {
 
@@ -46,15 +46,9 @@ std::string counted(std::size_t n, const std::string& rest) {
 GraphInfluence::GraphInfluence(std::vector<Vec3> nodes, InfluenceOptions options)
     : options_(std::move(options)), curtains_(options_.cuts), nodes_(nodes), sample_(std::span<const Vec3>{}) {}
 
-std::optional<SkinWeights> GraphInfluence::bind_shape(const Shape& shape, std::vector<std::string>& notes,
-                                                      const std::function<bool(double)>& progress) {
-  if (options_.surface) return along_surface(shape, notes, progress);
-  std::size_t cut_off = 0;
-  SkinWeights weights = straight(shape.positions, Gradients::No, &cut_off, progress);
-  if (weights.size() != shape.size()) return std::nullopt;
-  if (cut_off > 0)
-    notes.push_back(counted(cut_off, "are cut off from every node and follow the nearest one all the same."));
-  return weights;
+std::optional<GraphInfluence::Bound> GraphInfluence::bind_shape(const Shape& shape, std::vector<std::string>& notes,
+                                                                const std::function<bool(double)>& progress) {
+  return options_.surface ? bind_along_surface(shape, notes, progress) : bind_straight(shape, notes, progress);
 }
 
 SkinWeights GraphInfluence::bind(std::span<const Vec3> points, Gradients gradients) const {
@@ -66,43 +60,71 @@ SkinWeights GraphInfluence::straight(std::span<const Vec3> points, Gradients gra
   return node_weights(nodes_, options_.neighbours, points, gradients, progress, curtains_, cut_off);
 }
 
-std::optional<SkinWeights> GraphInfluence::along_surface(const Shape& shape, std::vector<std::string>& notes,
-                                                         const std::function<bool(double)>& progress) {
+std::optional<GraphInfluence::Bound> GraphInfluence::bind_straight(const Shape& shape, std::vector<std::string>& notes,
+                                                                   const std::function<bool(double)>& progress) const {
+  std::size_t cut_off = 0;
+  Bound bound{straight(shape.positions, Gradients::No, &cut_off, progress), {}};
+  if (bound.weights.size() != shape.size()) return std::nullopt;
+  if (cut_off > 0)
+    notes.push_back(counted(cut_off, "cut off from every node: they follow the nearest one all the same."));
+  bound.edges = influence_edges(bound.weights, nodes_.size());
+  const double longest = surface_edge_length(shape, nodes_.points());
+  if (!has_longer_sides(shape, longest)) return bound;
   const Places places = places_of(shape.positions);
-  if (progress && !progress(0.1)) return std::nullopt;
+  const std::vector<Vec3> vertices = surface_of(shape, places, longest).vertices;
+  const SkinWeights between = straight(std::span(vertices).subspan(places.at.size()), Gradients::No, nullptr, progress);
+  if (between.size() != vertices.size() - places.at.size()) return std::nullopt;
+  const auto more = influence_edges(between, nodes_.size());
+  const auto own = std::move(bound.edges);
+  bound.edges.clear();
+  std::set_union(own.begin(), own.end(), more.begin(), more.end(), std::back_inserter(bound.edges));
+  return bound;
+}
+
+std::optional<GraphInfluence::Bound> GraphInfluence::bind_along_surface(const Shape& shape,
+                                                                        std::vector<std::string>& notes,
+                                                                        const std::function<bool(double)>& progress) {
+  const Places places = places_of(shape.positions);
+  const std::optional<SkinWeights> rows = surface_rows(shape, places, notes, progress);
+  if (!rows) return std::nullopt;
+  Bound bound;
+  for (const Index v : places.of_point) {
+    if (v != Places::none)
+      append_row(*rows, v, bound.weights);
+    else
+      bound.weights.offsets.push_back(bound.weights.maps.size());
+  }
+  bound.edges = influence_edges(*rows, nodes_.size());
+  keep_sample(shape, bound.weights);
+  return bound;
+}
+
+std::optional<SkinWeights> GraphInfluence::surface_rows(const Shape& shape, const Places& places,
+                                                        std::vector<std::string>& notes,
+                                                        const std::function<bool(double)>& progress) const {
   const int k = std::max(1, std::min(options_.neighbours, static_cast<int>(nodes_.size()) - 1));
   const NeighbourGraph graph = surface_graph(shape, places, nodes_.points(), k + 1, curtains_);
-  if (progress && !progress(0.3)) return std::nullopt;
+  if (progress && !progress(0.4)) return std::nullopt;
   const NearestNodes near = nearest_along_surface(graph, nodes_.points(), k + 1, curtains_,
-                                                  [&](double done) { return !progress || progress(0.3 + 0.6 * done); });
+                                                  [&](double done) { return !progress || progress(0.4 + 0.6 * done); });
   if (near.width == 0) return std::nullopt;
-
+  const auto is_lost = [&](Index v) { return near.node[v * near.width] == NearestNodes::none; };
   std::vector<Vec3> lost;
-  std::vector<Index> lost_as(graph.size(), 0);
   for (Index v = 0; v < graph.size(); ++v)
-    if (near.node[v * near.width] == NearestNodes::none) {
-      lost_as[v] = static_cast<Index>(lost.size());
-      lost.push_back(graph.places[v]);
-    }
-  const SkinWeights straight_rows = straight(lost, Gradients::No, nullptr, {});
-
-  SkinWeights weights;
+    if (is_lost(v)) lost.push_back(graph.vertices[v]);
+  const SkinWeights lost_rows = straight(lost, Gradients::No, nullptr, {});
+  SkinWeights rows;
   std::vector<double> w(near.width);
-  std::size_t lost_points = 0;
-  for (const Index v : places.of_point) {
-    if (v == Places::none) {
-      weights.offsets.push_back(weights.maps.size());
-    } else if (near.node[v * near.width] == NearestNodes::none) {
-      append_row(straight_rows, lost_as[v], weights);
-      ++lost_points;
-    } else {
-      append_row(near, v, w, weights);
-    }
+  std::size_t lost_before = 0;
+  for (Index v = 0; v < graph.size(); ++v) {
+    if (is_lost(v))
+      append_row(lost_rows, lost_before++, rows);
+    else
+      append_row(near, v, w, rows);
   }
-  if (lost_points > 0)
-    notes.push_back(counted(lost_points, "reach no node along the surface and follow by straight distance."));
-  keep_sample(shape, weights);
-  return weights;
+  if (!lost.empty())
+    notes.push_back(counted(lost.size(), "of the surface reach no node along it: they follow by straight distance."));
+  return rows;
 }
 
 void GraphInfluence::keep_sample(const Shape& shape, const SkinWeights& weights) {

@@ -11,6 +11,7 @@
 #include "engine/geometry/curtains.h"
 #include "engine/geometry/deformer.h"
 #include "engine/geometry/nearest.h"
+#include "engine/geometry/neighbour_graph.h"
 
 namespace sinew {
 
@@ -36,10 +37,17 @@ class GraphInfluence {
   /// Throws InputError where a cut is not finite. `nodes` are finite.
   GraphInfluence(std::vector<Vec3> nodes, InfluenceOptions options);
 
-  /// Weights of the shape's points; call once, before anything else. Empty where progress (0..1) said false. Says in
-  /// `notes` what followed another way.
-  std::optional<SkinWeights> bind_shape(const Shape& shape, std::vector<std::string>& notes,
-                                        const std::function<bool(double)>& progress = {});
+  /// Weights of the shape's points, and the edges of the graph: between any two nodes that influence one common point
+  /// of the shape or of its surface between the points (surface_edge_length: a box of 8 points would else fall apart
+  /// at its edges).
+  struct Bound {
+    SkinWeights weights;
+    std::vector<std::pair<Index, Index>> edges;
+  };
+  /// Call once, before anything else. Empty where progress (0..1) said false. Says in `notes` what followed another
+  /// way.
+  std::optional<Bound> bind_shape(const Shape& shape, std::vector<std::string>& notes,
+                                  const std::function<bool(double)>& progress = {});
 
   /// Weights of other points of the same space.
   SkinWeights bind(std::span<const Vec3> points, Gradients gradients) const;
@@ -57,8 +65,13 @@ class GraphInfluence {
  private:
   SkinWeights straight(std::span<const Vec3> points, Gradients gradients, std::size_t* cut_off,
                        const std::function<bool(double)>& progress) const;
-  std::optional<SkinWeights> along_surface(const Shape& shape, std::vector<std::string>& notes,
-                                           const std::function<bool(double)>& progress);
+  std::optional<Bound> bind_straight(const Shape& shape, std::vector<std::string>& notes,
+                                     const std::function<bool(double)>& progress) const;
+  std::optional<Bound> bind_along_surface(const Shape& shape, std::vector<std::string>& notes,
+                                          const std::function<bool(double)>& progress);
+  /// Rows of the places, then of the points between; empty where progress said false.
+  std::optional<SkinWeights> surface_rows(const Shape& shape, const Places& places, std::vector<std::string>& notes,
+                                          const std::function<bool(double)>& progress) const;
   void keep_sample(const Shape& shape, const SkinWeights& weights);
   SkinWeights blended(std::span<const Vec3> points) const;
 

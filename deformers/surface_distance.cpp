@@ -38,22 +38,22 @@ double node_spacing(std::span<const Vec3> nodes) {
   return median(std::move(gaps));
 }
 
-Edges bridges_of(const Places& places, const Edges& edges, const GraphParts& parts, std::span<const Vec3> nodes,
+Edges bridges_of(const Surface& surface, const GraphParts& parts, std::span<const Vec3> nodes, double spacing,
                  int enough, const Curtains& curtains) {
   constexpr double rounding = 1e-5;  // of the diagonal: seams of files with five digits
   std::vector<Index> near(nodes.size()), weight(parts.count, 0);
   std::vector<double> distance(nodes.size()), lengths;
-  NearestTree(places.at).nearest(nodes, 1, near, distance);
+  NearestTree(surface.vertices).nearest(nodes, 1, near, distance);
   for (const Index v : near) ++weight[parts.of_vertex[v]];
-  lengths.reserve(edges.size());
-  for (const auto& [a, b] : edges) lengths.push_back((places.at[a] - places.at[b]).norm());
+  lengths.reserve(surface.edges.size());
+  for (const auto& [a, b] : surface.edges) lengths.push_back((surface.vertices[a] - surface.vertices[b]).norm());
   BridgeWishes wishes;
-  wishes.touch = rounding * bounds_of(places.at).diagonal();
-  wishes.reach = node_spacing(nodes);
+  wishes.touch = rounding * bounds_of(surface.vertices).diagonal();
+  wishes.reach = spacing;
   wishes.spacing = median(std::move(lengths));
   wishes.weight = weight;
   wishes.enough = static_cast<Index>(enough);
-  return bridges_between(places.at, parts, wishes, curtains);
+  return bridges_between(surface.vertices, parts, wishes, curtains);
 }
 
 /// A point reached from a node; the queue gives the nearest first, of equally near ones the lowest node and point.
@@ -109,17 +109,17 @@ class Sweep {
     constexpr std::size_t k = 8;
     std::vector<Index> near(nodes_.size() * k);
     std::vector<double> distance(nodes_.size() * k);
-    NearestTree(graph_.places).nearest(nodes_, static_cast<int>(k), near, distance);
+    NearestTree(graph_.vertices).nearest(nodes_, static_cast<int>(k), near, distance);
     for (Index j = 0; j < nodes_.size(); ++j) {
       const auto row = std::span(near).subspan(j * k, k);
       const auto free = [&](Index v) {
-        return v != NearestNodes::none && !curtains_.part(nodes_[j], graph_.places[v]);
+        return v != NearestNodes::none && !curtains_.part(nodes_[j], graph_.vertices[v]);
       };
       const auto found = curtains_.empty() ? row.begin() : std::find_if(row.begin(), row.end(), free);
       if (found == row.end() || *found == NearestNodes::none) continue;
-      offer(*found, j, (nodes_[j] - graph_.places[*found]).norm());
+      offer(*found, j, (nodes_[j] - graph_.vertices[*found]).norm());
       for (const Index v : graph_[*found])
-        if (curtains_.empty() || free(v)) offer(v, j, (nodes_[j] - graph_.places[v]).norm());
+        if (curtains_.empty() || free(v)) offer(v, j, (nodes_[j] - graph_.vertices[v]).norm());
     }
   }
 
@@ -141,14 +141,14 @@ class Sweep {
 
   /// To the neighbours r of a vertex p that was settled.
   void spread(const Label& at) {
-    const Vec3& p = graph_.places[at.vertex];
+    const Vec3& p = graph_.vertices[at.vertex];
     known_.clear();
     for (const Index q : graph_[at.vertex])
       if (const std::size_t e = entry_of(q, at.node); e != absent && settled_[e])
-        known_.push_back({q, out_.distance[e], graph_.places[q] - p});
+        known_.push_back({q, out_.distance[e], graph_.vertices[q] - p});
     for (const Index r : graph_[at.vertex]) {
       if (const std::size_t e = entry_of(r, at.node); e != absent && settled_[e]) continue;
-      const Vec3 to_r = graph_.places[r] - p;
+      const Vec3 to_r = graph_.vertices[r] - p;
       double shortest = at.distance + to_r.norm();
       const std::span<const Index> around = graph_[r];
       for (const Known& q : known_)
@@ -198,17 +198,23 @@ class Sweep {
 
 }  // namespace
 
+double surface_edge_length(const Shape& shape, std::span<const Vec3> nodes) {
+  return edge_length_for(shape, 0.5 * node_spacing(nodes), nodes.size() + shape.size());
+}
+
 NeighbourGraph surface_graph(const Shape& shape, const Places& places, std::span<const Vec3> nodes, int enough,
                              const Curtains& curtains) {
-  Edges edges = surface_edges(shape, places);
-  const GraphParts parts = parts_of(places.at.size(), edges);
+  const double spacing = node_spacing(nodes);
+  Surface surface = surface_of(shape, places, surface_edge_length(shape, nodes));
+  const GraphParts parts = parts_of(surface.vertices.size(), surface.edges);
   if (parts.count > 1) {
-    const Edges bridges = bridges_of(places, edges, parts, nodes, enough, curtains);
-    edges.insert(edges.end(), bridges.begin(), bridges.end());
+    const Edges bridges = bridges_of(surface, parts, nodes, spacing, enough, curtains);
+    surface.edges.insert(surface.edges.end(), bridges.begin(), bridges.end());
   }
   if (!curtains.empty())
-    std::erase_if(edges, [&](const auto& e) { return curtains.part(places.at[e.first], places.at[e.second]); });
-  return neighbour_graph(places.at, edges);
+    std::erase_if(surface.edges,
+                  [&](const auto& e) { return curtains.part(surface.vertices[e.first], surface.vertices[e.second]); });
+  return neighbour_graph(std::move(surface.vertices), surface.edges);
 }
 
 NearestNodes nearest_along_surface(const NeighbourGraph& graph, std::span<const Vec3> nodes, int width,

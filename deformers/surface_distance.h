@@ -19,9 +19,14 @@ struct NearestNodes {
   std::vector<double> distance;
 };
 
-/// What points are joined along: the surface's own edges, bridges across gaps (part_gaps.h: within the spacing of the
-/// nodes, or any gap where a part has fewer than `enough` of them), less all that crosses a curtain. A part is what the
-/// surface's edges join, curtains or not: no bridge goes around a curtain that cuts through one part.
+/// How long edges may be (surface_of) where a shape is to be no coarser than the graph of its nodes: half the median
+/// distance between these, but not so short that more points than some 16 a node and point were added.
+double surface_edge_length(const Shape& shape, std::span<const Vec3> nodes);
+
+/// What points are joined along: the edges of surface_of with surface_edge_length, bridges across gaps (part_gaps.h:
+/// within the spacing of the nodes, or any gap where a part has fewer than `enough` of them), less all that crosses a
+/// curtain. A part is what the surface's edges join, curtains or not: no bridge goes around a curtain that cuts through
+/// one part.
 NeighbourGraph surface_graph(const Shape& shape, const Places& places, std::span<const Vec3> nodes, int enough,
                              const Curtains& curtains);
 

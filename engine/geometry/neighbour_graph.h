@@ -10,13 +10,13 @@
 
 namespace sinew {
 
-/// Undirected, over m vertices at different places; a row lists the neighbours of a vertex, ascending (CSR).
+/// Undirected, over m vertices; a row lists the neighbours of a vertex, ascending (CSR).
 struct NeighbourGraph {
-  std::vector<Vec3> places;
+  std::vector<Vec3> vertices;
   std::vector<std::uint64_t> offsets{0};
   std::vector<Index> neighbours;
 
-  std::size_t size() const { return places.size(); }
+  std::size_t size() const { return vertices.size(); }
   std::span<const Index> operator[](Index v) const {
     return {neighbours.data() + offsets[v], neighbours.data() + offsets[v + 1]};
   }
@@ -33,12 +33,26 @@ Places places_of(std::span<const Vec3> positions);
 
 using Edges = std::vector<std::pair<Index, Index>>;
 
-/// Pairs of places that the surface joins: corners of a face (of one with more than 8 only neighbours, and each with
-/// the first); in a shape without faces, near points (join_near_points). Doubles may be among them.
-Edges surface_edges(const Shape& shape, const Places& places);
+/// What the surface joins: corners of a face with each other; of a face with more than 8 corners, or with a side or
+/// diagonal longer than `longest`, those of its triangles, whose edges are halved (the longest first, the same way from
+/// both sides) until none is longer: a large face then has points inside. In a shape without faces, near points
+/// (join_near_points). Vertices are the places, and behind them the points that were added. Doubles may be among the
+/// edges.
+struct Surface {
+  std::vector<Vec3> vertices;
+  Edges edges;
+};
+Surface surface_of(const Shape& shape, const Places& places, double longest);
+
+/// A length for surface_of such that it adds no more than some 16 `vertices` points, nor any where faces are smaller
+/// than `wanted`.
+double edge_length_for(const Shape& shape, double wanted, std::size_t vertices);
+
+/// Whether surface_of would add points.
+bool has_longer_sides(const Shape& shape, double longest);
 
 /// The graph of these edges, in any order and direction, doubles allowed.
-NeighbourGraph neighbour_graph(std::vector<Vec3> places, const Edges& edges);
+NeighbourGraph neighbour_graph(std::vector<Vec3> vertices, const Edges& edges);
 
 /// The connected part that each vertex belongs to, numbered by the lowest vertex of each, and their count.
 struct GraphParts {

@@ -169,6 +169,21 @@ TEST(GraphInfluence, PartsFollowAcrossSmallGaps) {
   for (Index i = legs; i < chair.size(); ++i) EXPECT_GT((after[i] - chair.positions[i]).norm(), 0.1) << i;
 }
 
+TEST(GraphInfluence, ABoxOfEightPointsHangsTogether) {
+  Shape box;
+  for (int i = 0; i < 8; ++i) box.positions.emplace_back(i & 1, i >> 1 & 1, 3 * (i >> 2));
+  for (const auto& face : std::vector<std::vector<Index>>{
+           {0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}})
+    box.faces.add(face);
+  for (const bool surface : {false, true}) {
+    const auto deformer = deformer_of(box, options_of(surface, {}, 250));
+    deformer->solve(moved(box, {3}, Vec3(1, 2, 3)), {});
+    const std::vector<Vec3> after = bent(*deformer, box);
+    for (std::size_t i = 0; i < 8; ++i)
+      EXPECT_LT((after[i] - box.positions[i] - Vec3(1, 2, 3)).norm(), 0.01) << surface << i;
+  }
+}
+
 TEST(GraphInfluence, AnIslandThatReachesNoNodeFollowsAndIsCounted) {
   Shape shape = two_sheets(true);
   for (int i = 0; i < 3; ++i) shape.positions.emplace_back(0.5 + 0.01 * i, 0.5 + 0.01 * (i % 2), 0.3);

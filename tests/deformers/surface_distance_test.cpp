@@ -93,7 +93,7 @@ TEST(SurfaceDistance, OnAFlatSheetIsTheStraightOne) {
   for (Vec3& g : nodes) g += Vec3(0.2, 0.1, 0);  // nodes need not be points
   const Bound b = bound(shape, nodes, 5);
   const Error error =
-      error_of(b, nodes.size(), [&](Index v, Index j) { return (b.graph.places[v] - nodes[j]).norm(); });
+      error_of(b, nodes.size(), [&](Index v, Index j) { return (b.graph.vertices[v] - nodes[j]).norm(); });
   EXPECT_LT(error.largest, 0.08);
   EXPECT_LT(error.mean, 0.002);
 }
@@ -143,7 +143,7 @@ TEST(SurfaceDistance, ACutSendsTheWayAround) {
   const Curtains curtains(std::vector{cut});
   const Vec3 corner(15.5, 20.3, 0);
   for (Index v = 0; v < b.graph.size(); ++v) {
-    const Vec3& p = b.graph.places[v];
+    const Vec3& p = b.graph.vertices[v];
     const double straight = (p - node[0]).norm(), around = (p - corner).norm() + (corner - node[0]).norm();
     EXPECT_NEAR(b.near.distance[v], curtains.part(p, node[0]) ? around : straight, 0.05 * around + 0.5);
   }
@@ -151,7 +151,7 @@ TEST(SurfaceDistance, ACutSendsTheWayAround) {
   const Cut through{{Vec3(15.5, -1, -1), Vec3(15.5, 31, -1)}, Vec3(0, 0, 2)};
   const Bound parted = bound(shape, node, 1, {through});
   for (Index v = 0; v < b.graph.size(); ++v)
-    EXPECT_EQ(std::isfinite(parted.near.distance[v]), parted.graph.places[v].x() < 15.5);
+    EXPECT_EQ(std::isfinite(parted.near.distance[v]), parted.graph.vertices[v].x() < 15.5);
 }
 
 TEST(SurfaceDistance, CanBeCancelled) {

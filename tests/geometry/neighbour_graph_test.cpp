@@ -11,6 +11,8 @@ namespace sinew {
 namespace {
 
 Edges unique(Edges edges) {
+  for (auto& [a, b] : edges)
+    if (b < a) std::swap(a, b);
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   return edges;
@@ -54,11 +56,11 @@ TEST(NeighbourGraph, ASoupHasTheGraphOfItsWeldedMesh) {
     both[0].insert(both[0].end(), both[1].begin(), both[1].end());
     return both[0];
   };
-  for (const auto& e : surface_edges(mesh, a)) of_mesh.insert(ends(a, e));
-  for (const auto& e : surface_edges(soup, b)) of_soup.insert(ends(b, e));
+  for (const auto& e : surface_of(mesh, a, 100).edges) of_mesh.insert(ends(a, e));
+  for (const auto& e : surface_of(soup, b, 100).edges) of_soup.insert(ends(b, e));
   EXPECT_EQ(of_mesh, of_soup);
   EXPECT_EQ(of_mesh.size(), 6u + 2 * 5u + 2 * 5u);  // rungs, rails, diagonals
-  EXPECT_EQ(parts_of(b.at.size(), surface_edges(soup, b)).count, 1u);
+  EXPECT_EQ(parts_of(b.at.size(), surface_of(soup, b, 100).edges).count, 1u);
 }
 
 TEST(NeighbourGraph, FacesOfManyCornersAndDegenerateOnes) {
@@ -73,7 +75,7 @@ TEST(NeighbourGraph, FacesOfManyCornersAndDegenerateOnes) {
   shape.faces.add(std::vector<Index>{3});
   shape.faces.add(std::vector<Index>{4, 4, 12});
   const Places places = places_of(shape.positions);
-  const Edges edges = unique(surface_edges(shape, places));
+  const Edges edges = unique(surface_of(shape, places, 100).edges);
   EXPECT_EQ(edges.size(), 12u + 9u);  // the ring, and the fan from its first corner
   const GraphParts parts = parts_of(places.at.size(), edges);
   EXPECT_EQ(parts.count, 2u);
@@ -84,13 +86,38 @@ TEST(NeighbourGraph, FacesOfManyCornersAndDegenerateOnes) {
   EXPECT_TRUE(graph[12].empty());
 }
 
+TEST(NeighbourGraph, LargeFacesHavePointsInside) {
+  // Two triangles and a quad around one edge, a sliver beside them: three faces at an edge, none of one size.
+  Shape shape;
+  shape.positions = {Vec3(0, 0, 0),  Vec3(10, 0, 0), Vec3(3, 6, 0),     Vec3(5, -2, 3),
+                     Vec3(10, 0, 4), Vec3(0, 0, 4),  Vec3(40, 0.001, 0)};
+  shape.faces.add(std::vector<Index>{0, 1, 2});
+  shape.faces.add(std::vector<Index>{1, 0, 3});
+  shape.faces.add(std::vector<Index>{0, 1, 4, 5});
+  shape.faces.add(std::vector<Index>{0, 1, 6});
+  EXPECT_TRUE(has_longer_sides(shape, 39));
+  EXPECT_FALSE(has_longer_sides(shape, 41));
+  const Places places = places_of(shape.positions);
+  EXPECT_EQ(surface_of(shape, places, 41).vertices.size(), 7u);
+  const Surface surface = surface_of(shape, places, 1.5);
+  EXPECT_GT(surface.vertices.size(), 80u);
+  EXPECT_LT(surface.vertices.size(), 400u);
+  for (const auto& [a, b] : surface.edges) EXPECT_LE((surface.vertices[a] - surface.vertices[b]).norm(), 1.5);
+  EXPECT_EQ(parts_of(surface.vertices.size(), surface.edges).count, 1u);
+  // The faces meet in the same points of their common edge: nowhere do two stand at one place.
+  EXPECT_EQ(places_of(surface.vertices).at.size(), surface.vertices.size());
+  // A length that does not ask for more points than a few times those there are.
+  EXPECT_GT(edge_length_for(shape, 1e-9, 100), 0.03);
+  EXPECT_EQ(edge_length_for(shape, 7, 100), 7);
+}
+
 TEST(NeighbourGraph, ACloudIsJoinedToItsNearPoints) {
   Shape cloud;
   for (int x = 0; x < 10; ++x)
     for (int y = 0; y < 10; ++y) cloud.positions.emplace_back(x, y, 0);
   for (int y = 0; y < 10; ++y) cloud.positions.emplace_back(30, y, 0);
   const Places places = places_of(cloud.positions);
-  const Edges edges = surface_edges(cloud, places);
+  const Edges edges = surface_of(cloud, places, 100).edges;
   const GraphParts parts = parts_of(places.at.size(), edges);
   EXPECT_EQ(parts.count, 2u);
   EXPECT_EQ(parts.of_vertex[100], 1u);
