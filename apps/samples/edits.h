@@ -5,7 +5,7 @@
 
 namespace sinew::samples {
 
-/// The edit of "scan", "plane", "bar", "cactus", "cylinder" or "splats".
+/// The edit of a sample; empty where it has none.
 std::string edit_of(const std::string& sample);
 
 }  // namespace sinew::samples
