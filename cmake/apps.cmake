@@ -20,7 +20,7 @@ set_source_files_properties(apps/sinew/command_line.cpp PROPERTIES COMPILE_DEFIN
 
 # The editor without its window: everything that can be tested without a display.
 set(SINEW_EDITOR_CORE background commands figures keys lod manipulation marks navigation point_set preferences repeatable
-                      session session_drag session_edit session_files tools view)
+                      session session_drag session_edit session_files session_time tools view)
 list(TRANSFORM SINEW_EDITOR_CORE PREPEND ${CMAKE_SOURCE_DIR}/apps/editor/)
 list(TRANSFORM SINEW_EDITOR_CORE APPEND .cpp)
 add_library(sinew_editor_core STATIC ${SINEW_EDITOR_CORE})

@@ -21,6 +21,17 @@ bool selected(const Context& c) {
 bool chosen(const Context& c) {
   return c.session.chosen_handle().has_value() && !c.view.manipulation;
 }
+bool moving(const Context& c) {
+  return c.session.moves();
+}
+bool keyed_here(const Context& c) {
+  if (c.session.layer() == nullptr) return false;
+  const auto& keys = c.session.layer()->keys;
+  return std::any_of(keys.begin(), keys.end(), [&](const auto& key) { return key.frame == c.session.frame(); });
+}
+bool in_run(const Context& c) {
+  return c.session.has_input() && !c.session.moves() && !pattern_of_run(c.session.input_path()).empty();
+}
 bool layered(const Context& c) {
   return c.session.layer() != nullptr;
 }
@@ -90,6 +101,8 @@ using C = Context;
 const std::array table{
     Command{"file.open", "Open...", "File", "Ctrl+O", "Open a shape or an edit.", always,
             [](C& c) { c.request(Request::Open); }},
+    Command{"file.open_run", "Open all frames", "File", "", "Open all numbered files that this one is one of.", in_run,
+            [](C& c) { c.session.open(pattern_of_run(c.session.input_path())); }},
     Command{"file.save", "Save edit", "File", "Ctrl+S", "Write the edit to its file.", open, save, nullptr, true},
     Command{"file.save_as", "Save edit as...", "File", "Ctrl+Shift+S", "Write the edit to another file.", open,
             [](C& c) { c.request(Request::SaveAs); }},
@@ -166,8 +179,33 @@ const std::array table{
     Command{"layer.toggle", "Show layer", "Layer", "", "Switch the chosen layer on or off.", layered,
             [](C& c) { c.session.toggle_layer(c.session.chosen_layer()); },
             [](const C& c) { return layered(c) && c.session.layer()->on; }},
+    Command{"layer.raise", "Raise layer", "Layer", "", "Let the chosen layer work after the one above it.", layered,
+            [](C& c) { c.session.move_layer(c.session.chosen_layer(), 1); }},
+    Command{"layer.lower", "Lower layer", "Layer", "", "Let the chosen layer work before the one below it.", layered,
+            [](C& c) { c.session.move_layer(c.session.chosen_layer(), -1); }},
     Command{"layer.remove", "Remove layer", "Layer", "", "Remove the chosen layer.", layered,
             [](C& c) { c.session.remove_layer(c.session.chosen_layer()); }},
+
+    Command{"time.play", "Play", "Time", "Space", "Play the frames with the edit.", moving,
+            [](C& c) { c.session.play(!c.session.playing()); }, [](const C& c) { return c.session.playing(); }},
+    Command{"time.loop", "Loop", "Time", "", "Begin again at the end.", moving,
+            [](C& c) { c.session.set_looping(!c.session.looping()); }, [](const C& c) { return c.session.looping(); }},
+    Command{"time.forward", "Next frame", "Time", "Right", "One frame on.", moving,
+            [](C& c) { c.session.step_frame(1); }, nullptr, true},
+    Command{"time.back", "Former frame", "Time", "Left", "One frame back.", moving,
+            [](C& c) { c.session.step_frame(-1); }},
+    Command{"time.first", "First frame", "Time", "Shift+Left", "To the beginning.", moving,
+            [](C& c) { c.session.go_to_frame(c.session.frames().front()); }},
+    Command{"time.last", "Last frame", "Time", "Shift+Right", "To the end.", moving,
+            [](C& c) { c.session.go_to_frame(c.session.frames().back()); }},
+    Command{"time.next_key", "Next key", "Time", "Up", "To the next key of the chosen layer.", moving,
+            [](C& c) { c.session.step_key(1); }, nullptr, true},
+    Command{"time.former_key", "Former key", "Time", "Down", "To the key before.", moving,
+            [](C& c) { c.session.step_key(-1); }},
+    Command{"time.key", "Set key", "Time", "I", "Hold where the handles are at this frame.", moving,
+            [](C& c) { c.session.insert_key(); }},
+    Command{"time.delete_key", "Delete key", "Time", "Alt+I", "Forget the key at this frame.", keyed_here,
+            [](C& c) { c.session.delete_key(c.session.frame()); }},
 
     Command{"view.frame_all", "Frame all", "View", "Home", "See all of the shape.", open, frame_all},
     Command{"view.frame", "Frame selection", "View", "F, Num .", "See the selected points, or the chosen handle.", open,

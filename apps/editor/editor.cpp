@@ -76,7 +76,8 @@ Editor::~Editor() {
 
 void Editor::run() {
   while (!quit_) {
-    const bool busy = session_.job() || !to_open_.empty() || (session_.solving() && !session_.dragging());
+    const bool busy =
+        session_.job() || !to_open_.empty() || (session_.solving() && !session_.dragging() && !session_.playing());
     window_.hold_play(busy);
     window_.wait(patience());
     take_events();
@@ -172,7 +173,7 @@ void Editor::take_changes() {
   if (changed.marks || changed.input) ui_.fixed_points = count_fixed(session_.point_marks());
   if (changed.input) show_new_input();
   if (changed.any()) frames_wanted_ = std::max(frames_wanted_, 1);
-  shape_moved_ |= changed.pose || changed.input;
+  shape_moved_ |= changed.pose || changed.input || changed.frame;
   use_preferences();
   const std::string name = std::filesystem::path(session_.input_path()).filename().string();
   window_.set_title(name.empty() ? "Sinew" : fmt::format("{}{} - Sinew", name, session_.dirty() ? " *" : ""));
@@ -216,6 +217,7 @@ double Editor::patience() const {
   if (!to_open_.empty() && !session_.job()) return 0;
   if (acquired_late_ || !detail_.complete()) return 0.02;
   if (ui_.wants_frames) return 0.033;
+  if (session_.next_step() >= 0) return session_.next_step();
   if (session_.job()) return 0.1;
   return ui_.next_frame < 1e300 ? std::max(0.0, ui_.next_frame - now()) : -1;
 }

@@ -32,6 +32,13 @@ inline constexpr const char* info = "\uf05a";
 inline constexpr const char* open = "\uf115";
 inline constexpr const char* plus = "\uf067";
 inline constexpr const char* trash = "\uf014";
+inline constexpr const char* play = "\uf04b";
+inline constexpr const char* pause = "\uf04c";
+inline constexpr const char* step_back = "\uf048";
+inline constexpr const char* step_forward = "\uf051";
+inline constexpr const char* to_start = "\uf049";
+inline constexpr const char* to_end = "\uf050";
+inline constexpr const char* key = "\uf084";
 inline constexpr const char* cube = "\uf1b2";
 
 /// First and last code point of the font.

@@ -26,8 +26,8 @@ Mat3 matrix_of(const Vec3& axis, double degrees) {
   return Eigen::AngleAxisd(degrees * (std::numbers::pi / 180), axis.stableNormalized()).toRotationMatrix();
 }
 
-Selection selection_of(std::vector<Index> points) {
-  return {SelectIndices{Shared<Index>(std::move(points))}, {}};
+Selection selection_of(std::vector<Index> points, std::optional<int> frame = std::nullopt) {
+  return {SelectIndices{Shared<Index>(std::move(points))}, {}, frame};
 }
 
 bool any_in(std::span<const Index> points, const PointSet& set) {
@@ -41,12 +41,16 @@ std::vector<Index> without(std::span<const Index> points, const PointSet& set) {
 }
 
 /// The fixed selections after marking: those that were drawn as boxes or spheres stay what they are where they can.
-std::vector<Selection> fixed_after(const Layer& layer, const LayerPoints& points, const PointSet& set, bool fix) {
+std::vector<Selection> fixed_after(const Layer& layer, const LayerPoints& points, const PointSet& set, bool fix,
+                                   std::optional<int> frame) {
   std::vector<Selection> out;
   PointSet loose(set.size());
   if (fix) loose = set;
   for (std::size_t s = 0; s < layer.fixed.size(); ++s) {
     const bool drawn = !std::holds_alternative<SelectIndices>(layer.fixed[s].what);
+    const bool elsewhere = points.fixed[s].empty();
+    if (elsewhere) out.push_back(layer.fixed[s]);
+    if (elsewhere) continue;
     if (drawn && (fix || !any_in(points.fixed[s], set))) {
       out.push_back(layer.fixed[s]);
       for (const Index i : points.fixed[s])
@@ -56,14 +60,14 @@ std::vector<Selection> fixed_after(const Layer& layer, const LayerPoints& points
         if (fix || !set[i]) loose.add(i);
     }
   }
-  if (!loose.empty()) out.push_back(selection_of(loose.indices()));
+  if (!loose.empty()) out.push_back(selection_of(loose.indices(), frame));
   return out;
 }
 
 /// Removes `set` from a handle; its targets go with the points.
 HandleEdit handle_without(const HandleEdit& handle, std::span<const Index> points, const PointSet& set) {
   HandleEdit out = handle;
-  out.points = selection_of(without(points, set));
+  out.points = selection_of(without(points, set), handle.points.frame);
   if (const std::vector<Vec3>& to = handle.motion.to.get(); !to.empty()) {
     std::vector<Vec3> kept;
     for (std::size_t k = 0; k < points.size(); ++k)
@@ -85,18 +89,24 @@ Vec3 RigidMotion::operator()(const Vec3& p) const {
   return matrix_of(axis, degrees) * (p - pivot) + pivot + move;
 }
 
-LayerPoints points_of(const Layer& layer, document::Selector& selector) {
+LayerPoints points_of(const Layer& layer, document::Selector& selector, std::optional<int> frame) {
   LayerPoints out;
-  for (const Selection& selection : layer.fixed) out.fixed.push_back(selector.points(selection));
-  for (const HandleEdit& handle : layer.handles)
-    out.handles.push_back(handle.motion.to.get().empty() ? selector.points(handle.points)
-                                                         : selector.points_as_written(handle.points));
+  const auto elsewhere = [&](const Selection& selection) { return frame && selection.frame != frame; };
+  for (const Selection& selection : layer.fixed)
+    out.fixed.push_back(elsewhere(selection) ? std::vector<Index>{} : selector.points(selection));
+  for (const HandleEdit& handle : layer.handles) {
+    std::vector<Index>& points = out.handles.emplace_back();
+    if (elsewhere(handle.points)) continue;
+    points =
+        handle.motion.to.get().empty() ? selector.points(handle.points) : selector.points_as_written(handle.points);
+  }
   return out;
 }
 
-Layer marked(const Layer& layer, const LayerPoints& points, const PointSet& set, Mark mark, const Motion& motion) {
+Layer marked(const Layer& layer, const LayerPoints& points, const PointSet& set, Mark mark, const Motion& motion,
+             std::optional<int> frame) {
   Layer out = layer;
-  out.fixed = fixed_after(layer, points, set, mark == Mark::Fixed);
+  out.fixed = fixed_after(layer, points, set, mark == Mark::Fixed, frame);
   for (std::size_t h = layer.handles.size(); h-- > 0;) {
     if (!any_in(points.handles[h], set)) continue;
     out.handles[h] = handle_without(layer.handles[h], points.handles[h], set);
@@ -105,7 +115,7 @@ Layer marked(const Layer& layer, const LayerPoints& points, const PointSet& set,
   }
   if (mark != Mark::Handle || set.empty()) return out;
   HandleEdit handle;
-  handle.points = selection_of(set.indices());
+  handle.points = selection_of(set.indices(), frame);
   handle.motion = motion;
   const bool moves = motion.move || motion.rotate || motion.matrix || !motion.to.get().empty();
   if (!moves) handle.motion.move = Vec3(0, 0, 0);
@@ -113,6 +123,46 @@ Layer marked(const Layer& layer, const LayerPoints& points, const PointSet& set,
     if (key.handles.size() == out.handles.size()) key.handles.push_back(handle.motion);
   out.handles.push_back(std::move(handle));
   return out;
+}
+
+Layer with_key(const Layer& layer, int frame, int first, std::span<const Motion> motions) {
+  CHECK(motions.size() == layer.handles.size(), motions.size(), layer.handles.size());
+  Layer out = layer;
+  const auto moves = [](const HandleEdit& handle) {
+    const Motion& m = handle.motion;
+    return m.rotate || m.matrix || !m.to.get().empty() || (m.move && *m.move != Vec3(0, 0, 0));
+  };
+  const auto set = [&](int at, std::vector<Motion> of) {
+    auto place =
+        std::find_if(out.keys.begin(), out.keys.end(), [&](const document::Key& key) { return key.frame >= at; });
+    if (place == out.keys.end() || place->frame != at) {
+      place = out.keys.emplace(place);
+      place->frame = at;
+    }
+    place->handles = std::move(of);
+  };
+  if (out.keys.empty() && std::any_of(out.handles.begin(), out.handles.end(), moves)) {
+    std::vector<Motion> own;
+    for (const HandleEdit& handle : out.handles) own.push_back(handle.motion);
+    set(out.frame.value_or(first), std::move(own));
+  }
+  set(frame, {motions.begin(), motions.end()});
+  // What the keys say now would only be said twice.
+  for (HandleEdit& handle : out.handles) {
+    handle.motion = {};
+    handle.motion.move = Vec3(0, 0, 0);
+  }
+  return out;
+}
+
+const Motion& motion_at(const Layer& layer, std::size_t handle, int frame) {
+  for (const document::Key& key : layer.keys)
+    if (key.frame == frame && handle < key.handles.size()) return key.handles[handle];
+  return layer.handles[handle].motion;
+}
+
+Motion& motion_at(Layer& layer, std::size_t handle, int frame) {
+  return const_cast<Motion&>(motion_at(std::as_const(layer), handle, frame));
 }
 
 Layer without_handle(const Layer& layer, std::size_t handle) {

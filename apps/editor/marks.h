@@ -30,13 +30,24 @@ struct LayerPoints {
   std::vector<std::vector<Index>> fixed;    ///< of each of Layer::fixed
   std::vector<std::vector<Index>> handles;  ///< of each of Layer::handles
 };
-LayerPoints points_of(const document::Layer& layer, document::Selector& selector);
+/// `frame`: of a stream, the selector's; selections of other frames have no points here.
+LayerPoints points_of(const document::Layer& layer, document::Selector& selector,
+                      std::optional<int> frame = std::nullopt);
 
 /// Marks `points`: they leave what they were in; a handle without points goes. Fixed points that are given as indices
 /// are kept as one selection. Handle makes one new handle with `motion` (that keeps the points where they are). Free of
-/// points that are already free changes nothing.
+/// points that are already free changes nothing. `frame`: of a stream, where new selections belong; a list of no points
+/// is one of another frame and stays.
 document::Layer marked(const document::Layer& layer, const LayerPoints& points, const PointSet& set, Mark mark,
-                       const document::Motion& motion = {});
+                       const document::Motion& motion = {}, std::optional<int> frame = std::nullopt);
+
+/// The layer with a key at `frame` whose motions are these, one a handle; a key that is there is replaced. A layer
+/// whose handles have moved without keys gets one for that, too, at its own frame (`first` where it names none).
+document::Layer with_key(const document::Layer& layer, int frame, int first, std::span<const document::Motion> motions);
+
+/// Of a handle, what a drag at `frame` changes: the motion of the key there, or the handle's own where there is none.
+document::Motion& motion_at(document::Layer& layer, std::size_t handle, int frame);
+const document::Motion& motion_at(const document::Layer& layer, std::size_t handle, int frame);
 
 document::Layer without_handle(const document::Layer& layer, std::size_t handle);
 

@@ -31,6 +31,7 @@ Session::~Session() {
 Changed Session::poll() {
   take_background();
   while (std::optional<document::SolveAnswer> answer = solver_->answer()) take_answer(std::move(*answer));
+  advance();
   start_waiting();
   measure();
   return std::exchange(changed_, {});
@@ -45,7 +46,7 @@ bool Session::solving() const {
 }
 
 bool Session::settled() const {
-  return !drag_ && answered_ && !settling_;
+  return !drag_ && answered_ && !settling_ && !playing_;
 }
 
 /// Asks for an answer to `project`. Where it has no layer yet, the one that a first mark will make is prepared.
@@ -54,6 +55,7 @@ void Session::ask(SolveOptions::Quality quality, const document::Project& projec
   document::SolveRequest request;
   request.ticket = ++ticket_;
   request.input = sequence_;
+  request.frame = wanted_frame_;
   request.layers = project.layers.empty() ? std::vector{standard_layer()} : project.layers;
   request.quality = quality;
   if (quality == SolveOptions::Quality::Final) {
@@ -72,8 +74,12 @@ void Session::take_answer(document::SolveAnswer answer) {
     settling_.reset();
     return;
   }
+  if (moves() && !drag_) {
+    if (answer.ticket == ticket_ && answer.finished) show_frame(std::move(answer));
+    return;
+  }
   if (drag_) {
-    if (answer.ticket < drag_->first_ticket) return;
+    if (answer.ticket < drag_->first_ticket || answer.frame != frame_) return;
     shown_ticket_ = answer.ticket;
     show_answer(std::move(answer.layers));
   } else if (answer.ticket == final_ticket_ && answer.final_quality) {
@@ -178,7 +184,8 @@ const LayerPoints& Session::layer_points() {
   if (!layer_points_) {
     LayerPoints points;
     if (const document::Layer* chosen = layer(); chosen != nullptr && selector_ != nullptr)
-      if (!refuse([&] { points = points_of(*chosen, *selector_); })) points = {};
+      if (!refuse([&] { points = points_of(*chosen, *selector_, stream_ ? std::optional(frame_) : std::nullopt); }))
+        points = {};
     points.fixed.resize(layer() == nullptr ? 0 : layer()->fixed.size());
     points.handles.resize(layer() == nullptr ? 0 : layer()->handles.size());
     layer_points_ = std::move(points);

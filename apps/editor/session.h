@@ -46,11 +46,12 @@ struct Job {
 /// What poll() or an edit changed since the last poll(): what the window must hand to the device again.
 struct Changed {
   bool input = false;    ///< another shape: all buffers
+  bool frame = false;    ///< another frame of it: all buffers, but the view stays
   bool weights = false;  ///< skinning weights of shown()
   bool pose = false;     ///< poses of shown(), and with them bent_positions()
   bool marks = false;    ///< point_marks(): marks or selection
   bool project = false;  ///< layers, history, names: panels, title
-  bool any() const { return input || weights || pose || marks || project; }
+  bool any() const { return input || frame || weights || pose || marks || project; }
 };
 
 struct HandleView {
@@ -58,6 +59,9 @@ struct HandleView {
   Mat3 axes = Mat3::Identity();  ///< its own axes: turned as the handle was
   std::size_t points = 0;
 };
+
+/// "walk.0001.obj" as "walk.%04d.obj": the run that a numbered file may be one of; empty where it has no number.
+std::string pattern_of_run(const std::string& path);
 
 class Session {
  public:
@@ -94,6 +98,35 @@ class Session {
   const std::string& edit_path() const { return edit_path_; }     ///< empty: never saved
   bool dirty() const { return dirty_; }                           ///< differs from what is on the disk
   const std::vector<std::string>& lost() const { return lost_; }  ///< what the last export's format could not hold
+
+  // Time: a still has one frame
+
+  std::span<const int> frames() const {
+    return sequence_ ? std::span<const int>(sequence_->frames) : std::span<const int>();
+  }
+  bool moves() const { return frames().size() > 1; }
+  /// Its points come and go: a layer has a path, and selections belong to a frame.
+  bool stream() const { return stream_; }
+  double rate() const { return sequence_ ? sequence_->rate : 24; }
+  int frame() const { return frame_; }                ///< that is shown
+  int wanted_frame() const { return wanted_frame_; }  ///< that is on its way
+  /// The nearest frame that there is; an interactive answer first, the final one when nothing follows.
+  void go_to_frame(int frame);
+  void step_frame(int by);
+  /// To the next or former key of the chosen layer.
+  void step_key(int by);
+  void play(bool on);
+  bool playing() const { return playing_; }
+  bool looping() const { return loop_; }
+  void set_looping(bool on) { loop_ = on; }
+  /// Seconds until poll() wants to be called again to play on; below 0: never.
+  double next_step() const;
+
+  /// Of the chosen layer; each is one step of history.
+  void insert_key();  ///< at frame(), with the motions that its handles have there
+  void delete_key(int frame);
+  void move_key(int frame, int to);
+  void set_interpolation(int frame, document::Interpolation interpolation);
 
   // What is shown
   // ------------------------------------------------------------------------------------------------------
@@ -159,6 +192,7 @@ class Session {
 
   void add_layer(const std::string& method);  ///< above all others; chosen
   void remove_layer(std::size_t layer);
+  void move_layer(std::size_t layer, int by);  ///< up (1) or down (-1) in the stack; stays chosen
   void rename_layer(std::size_t layer, const std::string& name);
   void toggle_layer(std::size_t layer);
   void set_method(std::size_t layer, const std::string& method);
@@ -198,6 +232,7 @@ class Session {
   struct Drag {
     std::size_t handle = 0;
     document::Project now;
+    document::Motion before;                   ///< the handle's, at the frame
     Vec3 centre = Vec3::Zero();                ///< mean of the handle's points where the layer starts
     std::uint64_t first_ticket = 0;            ///< of its requests
     std::vector<document::LayerResult> shown;  ///< before it began
@@ -212,6 +247,11 @@ class Session {
     bool force = false;
   };
 
+  void show_frame(document::SolveAnswer answer);
+  void advance();
+  bool keyed() const;
+  document::Motion motion_now(std::size_t handle) const;
+  const document::LayerResult* shown_layer() const;
   void open_now(const std::string& path);
   void show(Opened opened);
   void apply(document::Project project, const std::string& label);
@@ -227,6 +267,7 @@ class Session {
   void resume(Drag drag);
   void save_now(const Waiting& waiting);
   void export_now(const Waiting& waiting);
+  void export_frames(const Waiting& waiting);
   void with_neighbourhood(std::function<void()> then);
   void take_background();
   const LayerPoints& layer_points();
@@ -239,7 +280,12 @@ class Session {
   std::function<void()> wake_;
 
   std::shared_ptr<const Shape> input_;
-  std::shared_ptr<const Sequence> sequence_;  ///< input_, as the solver takes it
+  std::shared_ptr<const Sequence> sequence_;  ///< all frames; input_ is one of them
+  bool stream_ = false;
+  int frame_ = 1, wanted_frame_ = 1;
+  bool playing_ = false, loop_ = true;
+  double play_began_ = 0;      ///< seconds, when play_from_ was shown
+  std::size_t play_from_ = 0;  ///< index of a frame
   std::string input_path_, edit_path_;
   Bounds bounds_;
   document::History history_{document::Project{}};

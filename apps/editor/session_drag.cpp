@@ -42,9 +42,36 @@ Vec3 mean_of(std::span<const Vec3> points) {
 
 }  // namespace
 
+const document::LayerResult* Session::shown_layer() const {
+  return result_of(shown_, layer_);
+}
+
+/// Whether drags of the chosen layer set keys: what moves is edited at a pose.
+bool Session::keyed() const {
+  return layer() != nullptr && (!layer()->keys.empty() || (moves() && !stream_));
+}
+
+/// The motion of a handle at the frame shown, with the drag that runs.
+document::Motion Session::motion_now(std::size_t handle) const {
+  const document::Layer& now = drag_ ? drag_->now.layers[layer_] : *layer();
+  const bool at_key =
+      std::any_of(now.keys.begin(), now.keys.end(), [&](const document::Key& key) { return key.frame == frame_; });
+  const document::LayerResult* shown = shown_layer();
+  if (!at_key && moves() && shown != nullptr && handle < shown->motions.size()) return shown->motions[handle];
+  return motion_at(now, handle, frame_);
+}
+
 /// Means of the handles' points where the chosen layer starts from.
 const std::vector<Vec3>& Session::handle_rest_centres() {
-  if (!handle_centres_) {
+  if (moves()) {
+    const document::LayerResult* shown = shown_layer();
+    const std::size_t count = layer() == nullptr ? 0 : layer()->handles.size();
+    handle_centres_ = shown != nullptr ? shown->centres : std::vector<Vec3>{};
+    // A handle that the newest answer does not know yet is where its points are.
+    for (std::size_t h = handle_centres_->size(); h < count; ++h)
+      handle_centres_->push_back(mean_of(bent(*input_, shown_, layer_, layer_points().handles[h])));
+    handle_centres_->resize(count, Vec3(0, 0, 0));
+  } else if (!handle_centres_) {
     std::vector<Vec3> centres;
     for (const std::vector<Index>& points : layer_points().handles)
       centres.push_back(mean_of(bent(*input_, shown_, layer_, points)));
@@ -57,9 +84,8 @@ std::vector<HandleView> Session::handles() {
   std::vector<HandleView> out;
   if (layer() == nullptr || !has_input()) return out;
   const std::vector<Vec3>& centres = handle_rest_centres();
-  const document::Layer& layer = drag_ ? drag_->now.layers[layer_] : *this->layer();
-  for (std::size_t h = 0; h < layer.handles.size(); ++h) {
-    const document::Motion& motion = layer.handles[h].motion;
+  for (std::size_t h = 0; h < centres.size(); ++h) {
+    const document::Motion motion = motion_now(h);
     HandleView view;
     view.points = layer_points().handles[h].size();
     if (const std::vector<Vec3>& to = motion.to.get(); !to.empty())
@@ -81,6 +107,12 @@ bool Session::begin_drag(std::size_t handle) {
   Drag drag;
   drag.handle = handle;
   drag.now = project();
+  drag.before = motion_now(handle);
+  if (keyed()) {
+    std::vector<document::Motion> motions;
+    for (std::size_t h = 0; h < layer()->handles.size(); ++h) motions.push_back(motion_now(h));
+    drag.now.layers[layer_] = with_key(*layer(), frame_, frames().front(), motions);
+  }
   drag.centre = handle_rest_centres()[handle];
   drag.first_ticket = ticket_ + 1;
   drag.shown = shown_;
@@ -92,9 +124,8 @@ bool Session::begin_drag(std::size_t handle) {
 
 void Session::drag_to(const RigidMotion& motion) {
   if (!drag_) return;
-  const document::Motion& before = layer()->handles[drag_->handle].motion;
-  document::Motion& now = drag_->now.layers[layer_].handles[drag_->handle].motion;
-  const document::Motion wanted = moved(before, motion, drag_->centre, input_->origin);
+  document::Motion& now = motion_at(drag_->now.layers[layer_], drag_->handle, frame_);
+  const document::Motion wanted = moved(drag_->before, motion, drag_->centre, input_->origin);
   if (wanted == now) return;
   now = wanted;
   drag_->moved = true;
@@ -104,7 +135,7 @@ void Session::drag_to(const RigidMotion& motion) {
 void Session::end_drag() {
   if (!drag_) return;
   Drag drag = std::move(*std::exchange(drag_, std::nullopt));
-  if (drag.now == project()) {
+  if (!drag.moved || drag.now == project()) {
     resume(std::move(drag));
     return;
   }
@@ -112,7 +143,8 @@ void Session::end_drag() {
   for (std::size_t i = layer_; i < drag.now.layers.size(); ++i) drag.now.layers[i].start = {};
   history_.commit(std::move(drag.now), "Drag handle");
   project_changed();
-  settling_ = Settling{Settling::Step::FromRest, layer_, shown_, {}, {}};
+  // What moves begins at its keys, which are all that a file has.
+  if (!moves()) settling_ = Settling{Settling::Step::FromRest, layer_, shown_, {}, {}};
   ask(SolveOptions::Quality::Final, project());
 }
 

@@ -28,6 +28,10 @@ Layer Session::standard_layer() const {
   Layer layer;
   layer.name = "Layer 1";
   layer.method = methods_.front().name;
+  if (stream_) {
+    layer.path.emplace();
+    layer.path->every = std::max(1, static_cast<int>(frames().size()) / 24);
+  }
   return layer;
 }
 
@@ -144,6 +148,7 @@ void Session::mark_selection(Mark mark) {
     project.layers.push_back(standard_layer());
   }
   Layer& layer = project.layers[layer_];
+  const std::optional<int> frame = stream_ ? std::optional(frame_) : std::nullopt;
   document::Motion motion;
   if (mark == Mark::Handle) {
     const std::vector<Index> points = selection_.indices();
@@ -151,10 +156,10 @@ void Session::mark_selection(Mark mark) {
                        1e-7 * bounds_.diagonal(), input_->origin);
   }
   if (this->layer() != nullptr) {
-    layer = with_pivots(layer, handle_rest_centres(), input_->origin);
-    layer = marked(layer, layer_points(), selection_, mark, motion);
+    if (!moves()) layer = with_pivots(layer, handle_rest_centres(), input_->origin);
+    layer = marked(layer, layer_points(), selection_, mark, motion, frame);
   } else {
-    layer = marked(layer, {}, selection_, mark, motion);
+    layer = marked(layer, {}, selection_, mark, motion, frame);
   }
   forget_starts(project, layer_ + 1);
   const char* what = mark == Mark::Fixed ? "Fix" : mark == Mark::Handle ? "Handle of" : "Free";
@@ -176,9 +181,9 @@ void Session::reset_handle(std::size_t handle) {
   cancel_drag();
   if (layer() == nullptr || handle >= layer()->handles.size()) return;
   Project project = history_.present();
-  document::HandleEdit& edit = project.layers[layer_].handles[handle];
-  edit.motion = {};
-  edit.motion.move = Vec3(0, 0, 0);
+  document::Motion& motion = motion_at(project.layers[layer_], handle, frame_);
+  motion = {};
+  motion.move = Vec3(0, 0, 0);
   forget_starts(project, layer_);
   apply(std::move(project), "Reset handle");
 }
@@ -216,6 +221,18 @@ void Session::remove_layer(std::size_t layer) {
   if (layer_ > layer || layer_ == project.layers.size()) layer_ = layer_ == 0 ? 0 : layer_ - 1;
   handle_.reset();
   apply(std::move(project), "Remove layer");
+}
+
+void Session::move_layer(std::size_t layer, int by) {
+  cancel_drag();
+  Project project = history_.present();
+  const std::size_t other = by > 0 ? layer + 1 : layer - 1;  // wraps below the first
+  if (layer >= project.layers.size() || other >= project.layers.size()) return;
+  std::swap(project.layers[layer], project.layers[other]);
+  forget_starts(project, std::min(layer, other));
+  layer_ = other;
+  handle_.reset();
+  apply(std::move(project), by > 0 ? "Raise layer" : "Lower layer");
 }
 
 void Session::rename_layer(std::size_t layer, const std::string& name) {

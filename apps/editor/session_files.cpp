@@ -2,9 +2,12 @@
 
 #include "apps/editor/session.h"
 #include "engine/document/edit.h"
+#include "engine/document/evaluate.h"
 #include "engine/document/settings.h"
 #include "engine/geometry/skin.h"
+#include "engine/io/frame_pattern.h"
 #include "engine/io/io.h"
+#include "engine/io/sequence.h"
 
 namespace sinew::editor {
 
@@ -24,11 +27,42 @@ bool is_edit(const std::string& path) {
   return fs::path(path).extension() == ".json";
 }
 
+/// Whether frames have other points than the first: another number of them, or other ids.
+bool is_stream(const Sequence& sequence, const Shape& first) {
+  if (sequence.frames.size() < 2) return false;
+  const std::shared_ptr<const Shape> last = sequence.load(sequence.frames.back());
+  const Attribute *a = first.find("id"), *b = last->find("id");
+  return last->size() != first.size() || (a != nullptr && b != nullptr && a->values != b->values);
+}
+
+/// How many files there are with this name but for the last number in it; 0 where it has none.
+std::size_t files_of_run(const std::string& path) {
+  const std::string pattern = pattern_of_run(path);
+  if (pattern.empty()) return 0;
+  const std::optional<io::FramePattern> parsed = io::frame_pattern(pattern);
+  return parsed ? io::frames_on_disk(*parsed).size() : 0;
+}
+
 }  // namespace
+
+std::string pattern_of_run(const std::string& path) {
+  const std::string name = name_of(path);
+  const std::size_t dot = name.rfind('.');
+  if (dot == std::string::npos || dot == 0) return {};
+  std::size_t begin = dot;
+  while (begin > 0 && name[begin - 1] >= '0' && name[begin - 1] <= '9') --begin;
+  const std::size_t width = dot - begin;
+  if (width == 0 || width > 9) return {};
+  const std::string pattern = name.substr(0, begin) + "%0" + std::to_string(width) + "d" + name.substr(dot);
+  return (fs::path(path).parent_path() / pattern).string();
+}
 
 /// What a file gave, on its way from the reader's thread.
 struct Session::Opened {
-  std::shared_ptr<const Shape> shape;
+  std::shared_ptr<const Sequence> sequence;
+  std::shared_ptr<const Shape> shape;  ///< its first frame
+  bool stream = false;
+  std::size_t run = 0;  ///< how many numbered files the input is one of
   std::string input_path, edit_path;
   document::Project project;
   std::shared_ptr<document::Selector> selector;
@@ -45,14 +79,18 @@ void Session::open(const std::string& path) {
 
 /// All that takes long for a big shape: bounds, which points are finite, what the selections of the layers are.
 static void prepare(auto& opened) {
+  if (opened.sequence == nullptr) opened.sequence = std::make_shared<const Sequence>(still(opened.shape));
+  opened.stream = is_stream(*opened.sequence, *opened.shape);
   opened.bounds = bounds_of(opened.shape->positions);
   opened.finite = finite_points(opened.shape->positions);
   opened.selector = std::make_shared<document::Selector>(opened.shape);
+  if (opened.sequence->frames.size() > 1) return;  // the solver makes selections at their frames
   for (const document::Layer& layer : opened.project.layers) points_of(layer, *opened.selector);
 }
 
 void Session::open_now(const std::string& path) {
-  const auto work = [this, path, present = input_, present_path = input_path_](const Tell& tell) -> Background::Finish {
+  const auto work = [this, path, present = input_, present_sequence = sequence_,
+                     present_path = input_path_](const Tell& tell) -> Background::Finish {
     auto opened = std::make_shared<Opened>();
     opened->input_path = path;
     if (is_edit(path)) {
@@ -64,9 +102,12 @@ void Session::open_now(const std::string& path) {
     if (!opened->input_path.empty()) {
       io::ReadOptions options;
       options.progress = tell;
-      opened->shape = io::read(opened->input_path, options);
+      opened->sequence = std::make_shared<const Sequence>(io::open_sequence(opened->input_path, options));
+      opened->shape = opened->sequence->load(opened->sequence->frames.front());
+      if (opened->sequence->frames.size() == 1) opened->run = files_of_run(opened->input_path);
     } else if (present != nullptr) {
       opened->shape = present;
+      opened->sequence = present_sequence;
       opened->input_path = present_path;
       opened->on_disk = false;  // the file lacks the input's name
     } else {
@@ -93,7 +134,9 @@ void Session::adopt(std::shared_ptr<const Shape> shape, const std::string& path,
 void Session::show(Opened opened) {
   close();
   input_ = std::move(opened.shape);
-  sequence_ = std::make_shared<const Sequence>(still(input_));
+  sequence_ = std::move(opened.sequence);
+  stream_ = opened.stream;
+  frame_ = wanted_frame_ = sequence_->frames.front();
   input_path_ = std::move(opened.input_path);
   edit_path_ = std::move(opened.edit_path);
   bounds_ = opened.bounds;
@@ -104,6 +147,9 @@ void Session::show(Opened opened) {
   saved_ = opened.on_disk ? opened.project : document::Project{};
   layer_ = opened.project.layers.empty() ? 0 : opened.project.layers.size() - 1;
   changed_.input = true;
+  if (opened.run > 1)
+    notify(Severity::Info, name_of(input_path_) + " is one of " + std::to_string(opened.run) +
+                               " numbered files. \"Open all frames\" in the menu File plays them.");
   for (const std::string& note : input_->notes) notify(Severity::Info, name_of(input_path_) + ": " + note);
   project_changed();
   ask(SolveOptions::Quality::Final, project());
@@ -116,6 +162,7 @@ void Session::close() {
   settling_.reset();
   input_.reset();
   sequence_.reset();
+  stream_ = playing_ = false;
   selector_.reset();
   neighbourhood_.reset();
   after_neighbourhood_.clear();
@@ -136,7 +183,7 @@ void Session::close() {
   handle_.reset();
   figures_ = {};
   answered_ = true;
-  changed_ = {true, true, true, true, true};
+  changed_ = {true, true, true, true, true, true};
   project_changed();
 }
 
@@ -214,6 +261,10 @@ void Session::save_now(const Waiting& waiting) {
 }
 
 void Session::export_now(const Waiting& waiting) {
+  if (io::names_frames(waiting.path)) {
+    export_frames(waiting);
+    return;
+  }
   const auto work = [this, waiting, input = input_, layers = shown_](const Tell& tell) -> Background::Finish {
     std::shared_ptr<const Shape> shape = input;
     for (const document::LayerResult& layer : layers) {
@@ -225,6 +276,31 @@ void Session::export_now(const Waiting& waiting) {
       lost_ = report->lost;
       for (const std::string& lost : report->lost) notify(Severity::Warning, name_of(path) + ": " + lost);
       notify(Severity::Info, "Exported " + name_of(path) + ".");
+    };
+  };
+  background_->start("Exporting " + name_of(waiting.path), true, work);
+}
+
+/// All frames, each as `sinew deform` writes it.
+void Session::export_frames(const Waiting& waiting) {
+  const auto work = [this, waiting, sequence = sequence_,
+                     layers = project().layers](const Tell& tell) -> Background::Finish {
+    io::FrameWriterOptions options;
+    options.frames = sequence->frames;
+    options.rate = sequence->rate;
+    options.force = waiting.force;
+    const std::unique_ptr<io::FrameWriter> writer = io::create_frames(waiting.path, options);
+    document::Workspace workspace(sequence, methods_);
+    for (std::size_t i = 0; i < sequence->frames.size(); ++i) {
+      if (!tell(static_cast<double>(i) / static_cast<double>(sequence->frames.size()))) throw io::Cancelled{};
+      const int frame = sequence->frames[i];
+      writer->write(frame, *document::evaluate(workspace, layers, frame).shape);
+    }
+    const auto report = std::make_shared<io::WriteReport>(writer->commit());
+    return [this, path = waiting.path, report, count = sequence->frames.size()] {
+      lost_ = report->lost;
+      for (const std::string& lost : report->lost) notify(Severity::Warning, name_of(path) + ": " + lost);
+      notify(Severity::Info, "Exported " + std::to_string(count) + " frames to " + name_of(path) + ".");
     };
   };
   background_->start("Exporting " + name_of(waiting.path), true, work);

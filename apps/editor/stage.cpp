@@ -34,7 +34,7 @@ std::vector<Vec3> normals_of(const Shape& shape, std::span<const std::uint32_t> 
 }  // namespace
 
 void Stage::note(const Changed& changed) {
-  pending_.input |= changed.input;
+  pending_.input |= changed.input || changed.frame;
   pending_.weights |= changed.weights;
   pending_.pose |= changed.pose;
   pending_.marks |= changed.marks;

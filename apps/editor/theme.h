@@ -31,7 +31,7 @@ const Theme& light_theme();
 
 namespace measure {
 inline constexpr float row = 24, gap = 4, pad = 12, menu_bar = 28, status_line = 24, tool_button = 30;
-inline constexpr float tool_column = 40, right_column = 272, edge = 12, label_column = 104;
+inline constexpr float timeline = 60, tool_column = 40, right_column = 272, edge = 12, label_column = 104;
 }  // namespace measure
 
 /// The theme and scale that are used now. Set between frames.

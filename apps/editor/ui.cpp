@@ -14,7 +14,8 @@ Layout layout_of(const Ui& ui, float width, float height) {
   layout.width = width;
   layout.height = height;
   layout.top = px(measure::menu_bar);
-  layout.bottom = height - px(measure::status_line);
+  layout.status = height - px(measure::status_line);
+  layout.bottom = layout.status - timeline_height(ui);
   const bool column = ui.context.session.has_input() && ui.column_open;
   const float column_width = std::clamp(px(ui.column_width), px(240), std::max(px(240), 0.5f * width));
   layout.column = column ? std::round(width - column_width) : width;
@@ -27,6 +28,7 @@ void show_ui(Ui& ui) {
   show_tools(ui);
   show_column(ui);
   show_start(ui);
+  show_timeline(ui);
   show_status(ui);
   show_job(ui);
   show_toasts(ui);

@@ -1,6 +1,7 @@
 #pragma once
 /// Ui: what the panels share, and a function a panel. They are shown from top to bottom once a frame.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace sinew::editor {
 struct Layout {
   float width = 0, height = 0;
   float top = 0;     ///< below the menu bar
-  float bottom = 0;  ///< above the status line
+  float bottom = 0;  ///< above the timeline, or the status line where there is none
+  float status = 0;  ///< above the status line
   float column = 0;  ///< left edge of the right column
 };
 
@@ -50,6 +52,8 @@ struct Ui {
   std::string new_name;
   std::string edited_name;  ///< "layer/setting" of the number that is being dragged or typed, and what it is so far
   double edited_value = 0;
+  std::optional<int> moved_key;  ///< that is being dragged along the timeline, to
+  int moved_key_to = 0;
   bool wants_frames = false;  ///< something in the interface moves by itself
   double next_frame = 1e300;  ///< when, by now(), the interface will change by itself
 
@@ -67,7 +71,9 @@ void show_menu(Ui& ui);
 void show_tools(Ui& ui);   ///< tool bar at the left, switches at the top
 void show_column(Ui& ui);  ///< scene, layer, marks, show
 void show_status(Ui& ui);
-void show_start(Ui& ui);  ///< while nothing is open
+void show_timeline(Ui& ui);           ///< of what moves: buttons, frame, keys
+float timeline_height(const Ui& ui);  ///< pixels; 0 for a still
+void show_start(Ui& ui);              ///< while nothing is open
 void show_job(Ui& ui);
 void show_toasts(Ui& ui);
 void show_palette(Ui& ui);

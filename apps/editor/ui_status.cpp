@@ -137,12 +137,12 @@ void draw(ImDrawList* list, float x, float middle, const std::vector<Group>& gro
 
 void show_status(Ui& ui) {
   const float height = px(measure::status_line);
-  widget::begin_panel("status", {0, ui.layout.bottom}, {ui.layout.width, height});
+  widget::begin_panel("status", {0, ui.layout.status}, {ui.layout.width, height});
   std::vector<Group> left = figures(ui), right = hints(ui);
   if (!ui.device.empty()) right.push_back({{{ui.device, false}}, 5});
   fit(left, right, ui.layout.width - 2 * px(measure::pad) - px(8));
   ImDrawList* list = ImGui::GetWindowDrawList();
-  const float middle = ui.layout.bottom + 0.5f * height;
+  const float middle = ui.layout.status + 0.5f * height;
   draw(list, px(measure::pad), middle, left);
   draw(list, ui.layout.width - px(measure::pad) - width_of(right) + px(20), middle, right);
   widget::edge_line({0, 0}, {1, 0});

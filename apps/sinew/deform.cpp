@@ -13,8 +13,7 @@
 #include "engine/document/pose_file.h"
 #include "engine/document/settings.h"
 #include "engine/geometry/parallel.h"
-#include "engine/io/frame_pattern.h"
-#include "engine/io/io.h"
+#include "engine/io/sequence.h"
 
 namespace sinew::app {
 
@@ -40,16 +39,10 @@ document::Project edit_of(const Options& options) {
   return project;
 }
 
-/// A name of frames: of a numbered run, or of a format that holds many.
-bool names_frames(const std::string& path, const std::string& as) {
-  if (path.ends_with('/') || (path == "-" && as.empty())) return false;
-  return io::frame_pattern(path) || io::format_of(path, as).open_frames != nullptr;
-}
-
 /// Whether the command line speaks of frames.
 bool many_frames(const Options& options) {
-  return !options.frames.empty() || !options.task.empty() || names_frames(options.input, options.from) ||
-         (names_frames(options.out.path, options.out.as));
+  return !options.frames.empty() || !options.task.empty() || io::names_frames(options.input, options.from) ||
+         io::names_frames(options.out.path, options.out.as);
 }
 
 /// All outputs, before any work is done.

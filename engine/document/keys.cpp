@@ -6,6 +6,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "engine/document/selection.h"
 #include "engine/geometry/affine.h"
 #include "engine/geometry/check.h"
 
@@ -92,8 +93,8 @@ KeySpan span_of(std::span<const Key> keys, double frame) {
   return {second - 1, second, u};
 }
 
-std::vector<Vec3> targets_between(const Motion& first, const Motion& second, double u, std::span<const Vec3> at_first,
-                                  std::span<const Vec3> at_second, std::span<const Vec3> now, const Vec3& origin) {
+Motion motion_between(const Motion& first, const Motion& second, double u, std::span<const Vec3> at_first,
+                      std::span<const Vec3> at_second, std::span<const Vec3> now, const Vec3& origin) {
   CHECK(at_first.size() == now.size() && at_second.size() == now.size(), at_first.size(), now.size());
   Relative x = relative(first, at_first, origin), y = relative(second, at_second, origin);
   const Vec3 c = mean_of(now);
@@ -101,26 +102,51 @@ std::vector<Vec3> targets_between(const Motion& first, const Motion& second, dou
   for (const Vec3& p : now) extent = std::max(extent, (p - c).norm());
   extent = std::max({extent, x.a.norm(), y.a.norm()});
 
-  Mat3 R;
+  Rotation rotation{x.axis, 0, Vec3(c + origin)};
   if (same_axis(x, y) && same_pivot(x, y, extent)) {
-    x.degrees = (1 - u) * x.degrees + u * y.degrees;
-    R = x.R();
+    rotation = {x.axis, (1 - u) * x.degrees + u * y.degrees, Vec3(c + x.a + origin)};
   } else {
-    Mat3 other;
+    Mat3 R, other;
     turn_about_mean(x, R);
     turn_about_mean(y, other);
-    R = blended(R, other, u);
+    const Eigen::AngleAxisd turn(blended(R, other, u));
+    rotation.axis = turn.axis();
+    rotation.degrees = turn.angle() * (180 / std::numbers::pi);
   }
+  const Vec3 b = (1 - u) * x.b + u * y.b, move = (1 - u) * x.m + u * y.m;
+  Motion out;
+  if (x.o.empty() && y.o.empty()) {
+    const Mat3 A = blended(x.A, y.A, u);
+    if (rotation.degrees != 0) out.rotate = rotation;
+    out.move = move;
+    if (A == Mat3::Identity()) {
+      *out.move += b;
+    } else {
+      // A (q - c) + c + b = A q + t, in the file's coordinates.
+      out.matrix = Eigen::Matrix4d::Identity();
+      out.matrix->topLeftCorner<3, 3>() = A;
+      out.matrix->topRightCorner<3, 1>() = (Mat3::Identity() - A) * (c + origin) + b;
+    }
+    return out;
+  }
+  // Targets of their own leave nothing but targets.
+  const Mat3 R = Eigen::AngleAxisd(rotation.degrees * (std::numbers::pi / 180), rotation.axis).toRotationMatrix();
   const Mat3 A = blended(x.A, y.A, u);
-  const Vec3 shift = (1 - u) * (x.b + x.m) + u * (y.b + y.m);
-  std::vector<Vec3> out;
+  const Vec3 about = *rotation.about - origin;
+  std::vector<Vec3> targets;
   for (std::size_t i = 0; i < now.size(); ++i) {
-    Vec3 p = A * (R * (now[i] - c - x.a) + x.a) + c + shift;
+    Vec3 p = A * (R * (now[i] - about) + about - c) + c + b + move;
     if (!x.o.empty()) p += (1 - u) * x.o[i];
     if (!y.o.empty()) p += u * y.o[i];
-    out.push_back(p);
+    targets.push_back(p + origin);
   }
+  out.to = Shared<Vec3>(std::move(targets));
   return out;
+}
+
+std::vector<Vec3> targets_between(const Motion& first, const Motion& second, double u, std::span<const Vec3> at_first,
+                                  std::span<const Vec3> at_second, std::span<const Vec3> now, const Vec3& origin) {
+  return targets_of(motion_between(first, second, u, at_first, at_second, now, origin), now, origin);
 }
 
 }  // namespace sinew::document

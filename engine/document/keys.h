@@ -33,6 +33,10 @@ struct KeySpan {
 /// `keys` ascending in frames and not empty. `frame` may lie between whole frames.
 KeySpan span_of(std::span<const Key> keys, double frame);
 
+/// The motion of one handle at a frame, as if it had a key there; the arguments are those of targets_between.
+Motion motion_between(const Motion& first, const Motion& second, double u, std::span<const Vec3> at_first,
+                      std::span<const Vec3> at_second, std::span<const Vec3> now, const Vec3& origin);
+
 /// Targets of one handle at a frame. `now`: its points there, relative to `origin`; `at_first`, `at_second`: the same
 /// points at the frames of the two keys.
 std::vector<Vec3> targets_between(const Motion& first, const Motion& second, double u, std::span<const Vec3> at_first,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 
 #include "engine/document/keys.h"
 #include "engine/document/pose_blend.h"
@@ -151,7 +152,10 @@ bool Workspace::fit(std::size_t i, int base_frame) {
       kept.grown = true;
       Solved& now = kept.solved[key.frame];
       now.rest = rest;
-      now.constraints = *constraints(i, key.frame, *rest);
+      Wanted asked = *wanted(i, key.frame, *rest);
+      now.constraints = std::move(asked.constraints);
+      now.motions = std::move(asked.motions);
+      now.centres = std::move(asked.centres);
       if (!solve(i, key.frame, now, From::Here)) return false;
     }
   }
@@ -173,20 +177,22 @@ bool Workspace::bring_made(std::size_t i, int frame) {
   kept.layer = layer;
   const std::shared_ptr<const Shape> rest = rest_of(i, frame);
   if (rest == nullptr) return false;
-  std::optional<Constraints> wanted = constraints(i, frame, *rest);
-  if (!wanted) return false;
+  std::optional<Wanted> asked = wanted(i, frame, *rest);
+  if (!asked) return false;
 
   Solved& now = kept.solved[frame];
   if (now.rest != rest) now = {};
   now.rest = rest;
   const std::shared_ptr<const Pose> from = now.from, to = now.to;
   if (!start(i, frame, now)) return false;
+  now.motions = std::move(asked->motions);
+  now.centres = std::move(asked->centres);
   const bool better =
       options_->solve.quality == SolveOptions::Quality::Final && now.quality != SolveOptions::Quality::Final;
   if (now.pose != nullptr && now.settled && !better && from == now.from && to == now.to &&
-      same_constraints(*wanted, now.constraints))
+      same_constraints(asked->constraints, now.constraints))
     return true;
-  now.constraints = std::move(*wanted);
+  now.constraints = std::move(asked->constraints);
   return solve(i, frame, now, From::Keys);
 }
 
@@ -297,7 +303,7 @@ bool Workspace::solve(std::size_t i, int frame, Solved& now, From where) {
 }
 
 /// What a layer asks of its rest at a frame; nothing where a callback stopped the layers below.
-std::optional<Constraints> Workspace::constraints(std::size_t i, int frame, const Shape& rest) {
+std::optional<Workspace::Wanted> Workspace::wanted(std::size_t i, int frame, const Shape& rest) {
   Kept& kept = kept_[i];
   const Layer& layer = layers_[i];
   if (!kept.marked)
@@ -307,20 +313,22 @@ std::optional<Constraints> Workspace::constraints(std::size_t i, int frame, cons
   const std::vector<Key> keys = keys_of(layer, footage_.frame_of(layer));
   const KeySpan span = span_of(keys, frame);
   const Key &first = keys[span.first], &second = keys[span.second];
-  Constraints out{kept.marked->fixed, {}};
-  if (frame == first.frame) {
-    for (std::size_t h = 0; h < layer.handles.size(); ++h) {
-      const std::vector<Index>& points = kept.marked->handles[h];
-      out.handles.push_back({points, targets_of(first.handles[h], at(points, rest), rest.origin)});
-    }
-    return out;
+  std::shared_ptr<const Shape> rest_first, rest_second;
+  if (frame != first.frame) {
+    rest_first = rest_of(i, first.frame);
+    rest_second = rest_of(i, second.frame);
+    if (rest_first == nullptr || rest_second == nullptr) return std::nullopt;
   }
-  const std::shared_ptr<const Shape> rest_first = rest_of(i, first.frame), rest_second = rest_of(i, second.frame);
-  if (rest_first == nullptr || rest_second == nullptr) return std::nullopt;
+  Wanted out{{kept.marked->fixed, {}}, {}, {}};
   for (std::size_t h = 0; h < layer.handles.size(); ++h) {
     const std::vector<Index>& points = kept.marked->handles[h];
-    out.handles.push_back({points, targets_between(first.handles[h], second.handles[h], span.u, at(points, *rest_first),
-                                                   at(points, *rest_second), at(points, rest), rest.origin)});
+    const std::vector<Vec3> now = at(points, rest);
+    out.motions.push_back(frame == first.frame
+                              ? first.handles[h]
+                              : motion_between(first.handles[h], second.handles[h], span.u, at(points, *rest_first),
+                                               at(points, *rest_second), now, rest.origin));
+    out.constraints.handles.push_back({points, targets_of(out.motions[h], now, rest.origin)});
+    out.centres.push_back(std::accumulate(now.begin(), now.end(), Vec3(0, 0, 0)) / static_cast<double>(now.size()));
   }
   return out;
 }
@@ -370,6 +378,8 @@ LayerResult Workspace::result(std::size_t i, const Solved& solved) {
   out.structure = kept.structure;
   out.report = solved.report;
   out.constraints = solved.constraints;
+  out.motions = solved.motions;
+  out.centres = solved.centres;
   out.map_energy = solved.map_energy;
   out.solved = true;
   out.build_seconds = kept.build_seconds;

@@ -28,7 +28,9 @@ struct LayerResult {
   std::shared_ptr<const Pose> pose;
   std::shared_ptr<const Deformer::Structure> structure;  ///< of the layer's deformer at the frame, at rest, to draw
   SolveReport report;
-  Constraints constraints;  ///< that the pose was solved for; points of the layer's rest (Workspace::rest)
+  Constraints constraints;      ///< that the pose was solved for; points of the layer's rest (Workspace::rest)
+  std::vector<Motion> motions;  ///< of the handles at the frame, as a key there would have them
+  std::vector<Vec3> centres;    ///< means of the handles' points at the frame, where the layer starts from
   std::shared_ptr<const std::vector<double>> map_energy;  ///< Deformer::map_energy of the pose
   bool solved = false;       ///< false: an earlier pose is carried along, because a layer below is being dragged
   double build_seconds = 0;  ///< making the deformer: its structure and the weights of the points
@@ -78,6 +80,8 @@ class Workspace {
   struct Solved {
     std::shared_ptr<const Shape> rest;
     Constraints constraints;
+    std::vector<Motion> motions;
+    std::vector<Vec3> centres;
     std::shared_ptr<const Pose> from, to;  ///< solutions of the keys that it started from; null at a key
     std::shared_ptr<const Pose> pose;      ///< null: not solved yet
     std::shared_ptr<const std::vector<double>> map_energy;
@@ -110,7 +114,13 @@ class Workspace {
   bool start(std::size_t i, int frame, Solved& now);
   enum class From { Keys, Here };  ///< where a solve begins: as start() says, or where the deformer is
   bool solve(std::size_t i, int frame, Solved& now, From where);
-  std::optional<Constraints> constraints(std::size_t i, int frame, const Shape& rest);
+  /// What the keys ask of a layer at a frame.
+  struct Wanted {
+    Constraints constraints;
+    std::vector<Motion> motions;
+    std::vector<Vec3> centres;
+  };
+  std::optional<Wanted> wanted(std::size_t i, int frame, const Shape& rest);
   std::shared_ptr<const Shape> rest_of(std::size_t i, int frame);
   std::shared_ptr<const Shape> output(std::size_t i, int frame);
   void install(Kept& kept, std::shared_ptr<Deformer> deformer);

@@ -95,6 +95,11 @@ class StillWriter : public FrameWriter {
 
 }  // namespace
 
+bool names_frames(const std::string& path, const std::string& as) {
+  if (path.ends_with('/') || (path == "-" && as.empty())) return false;
+  return frame_pattern(path).has_value() || format_of(path, as).open_frames != nullptr;
+}
+
 Sequence open_sequence(const std::string& path, const ReadOptions& options, const std::string& as) {
   if (const std::optional<FramePattern> pattern = frame_pattern(path)) return checked(open_run(*pattern), path);
   const Format& format = format_of(path, as);

@@ -15,6 +15,9 @@
 
 namespace sinew::io {
 
+/// Whether a name is one of frames: a numbered run, or a file of a format that holds many ("-": of `as`).
+bool names_frames(const std::string& path, const std::string& as = "");
+
 /// Opens what `path` names; `as`: the format of "-", by an extension. `load` may be called from any thread and reads
 /// its frame anew each time (a still was read already); it throws one sentence with path and frame where there is none.
 /// Each frame has an origin of its own (Shape::origin). Throws InputError: nothing there, frames that the name of the
