@@ -1,12 +1,11 @@
 #include "apps/samples/soup.h"
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdio>
 #include <functional>
 #include <span>
 #include <vector>
-
-#include <Eigen/Geometry>
 
 #include "apps/samples/turns.h"
 #include "engine/geometry/shape.h"
