@@ -65,7 +65,7 @@ void show_number(Ui& ui, ImVec2 at, float width) {
   double frame = session.wanted_frame();
   const widget::Number described{static_cast<double>(session.frames().front()),
                                  static_cast<double>(session.frames().back()), true, false, ""};
-  if (widget::number("frame", frame, described)) session.go_to_frame(static_cast<int>(frame));
+  if (widget::number("##frame", frame, described)) session.go_to_frame(static_cast<int>(frame));
   if (ImGui::IsItemHovered()) widget::tooltip("Frame");
 }
 

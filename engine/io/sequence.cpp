@@ -1,6 +1,7 @@
 #include "engine/io/sequence.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <mutex>
 #include <set>
 
@@ -97,7 +98,14 @@ class StillWriter : public FrameWriter {
 
 bool names_frames(const std::string& path, const std::string& as) {
   if (path.ends_with('/') || (path == "-" && as.empty())) return false;
-  return frame_pattern(path).has_value() || format_of(path, as).open_frames != nullptr;
+  if (frame_pattern(path)) return true;
+  std::string extension = path == "-" ? as : std::filesystem::path(path).extension().string();
+  if (extension.starts_with('.')) extension.erase(0, 1);
+  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  for (const Format& format : formats())
+    if (format.open_frames != nullptr && std::count(format.extensions.begin(), format.extensions.end(), extension) > 0)
+      return true;
+  return false;
 }
 
 Sequence open_sequence(const std::string& path, const ReadOptions& options, const std::string& as) {

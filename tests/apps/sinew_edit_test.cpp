@@ -50,8 +50,6 @@ std::vector<std::pair<std::string, std::string>> mistakes_of_meaning() {
        "expected no \"stiffness\" for method graph, found 1"},
       {"{\"sinew\": 1, \"layers\": [@{\"method\": \"graph\", \"examples\": [\"a.obj\"]}]}",
        "expected no \"examples\" for method graph, found 1"},
-      {"{\"sinew\": 1, \"layers\": [@{\"method\": \"graph\", \"keys\": [{\"frame\": 1, \"handles\": []}]}]}",
-       "expected no \"keys\" for method graph, found 1"},
   };
 }
 

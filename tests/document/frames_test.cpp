@@ -143,14 +143,17 @@ TEST(Frames, AStreamIsBentWhereverItsParticlesAre) {
 }
 
 TEST(Frames, BentVelocitiesAreTheDerivativeOfBentPositions) {
-  const auto input = std::make_shared<const Sequence>(arc_stream(24));
-  std::vector<Layer> layers{path_layer(1)};
+  // Frames so close that a difference of two is a derivative.
+  constexpr int fine = 16;
+  const auto input = std::make_shared<const Sequence>(arc_stream(24, fine));
+  std::vector<Layer> layers{path_layer(3 * fine)};
+  for (Selection* selection : {&layers[0].fixed[0], &layers[0].handles[0].points}) selection->frame = 16 * fine;
   for (const bool keyed : {false, true}) {
     layers[0].handles[0].motion.move = Vec3(0, 0, 1);
-    if (keyed) layers[0].keys = {key(1, Vec3(0, 0, 0), Interpolation::Smooth), key(24, Vec3(0, 0.5, 2))};
+    if (keyed) layers[0].keys = {key(1, Vec3(0, 0, 0), Interpolation::Smooth), key(24 * fine, Vec3(0, 0.5, 2))};
     Workspace workspace(input, methods());
     double error = 0, size = 0, plain_error = 0;
-    for (const int frame : {8, 12, 17}) {
+    for (const int frame : {8 * fine, 12 * fine, 17 * fine}) {
       const Evaluation before = evaluate(workspace, layers, frame - 1), after = evaluate(workspace, layers, frame + 1);
       const Evaluation now = evaluate(workspace, layers, frame);
       const auto rest = input->load(frame);

@@ -58,12 +58,14 @@ inline Vec3 arc_velocity(int id, double seconds) {
   return {6, 6 - 12 * age + up, side};
 }
 
-/// Eight particles are born each frame and live for 16 frames: ids, velocities, 24 frames a second.
-inline Sequence arc_stream(int frames) {
+/// Eight particles are born each 24th of a second and live for 16 of them: ids, velocities. `fine`: frames in a 24th.
+inline Sequence arc_stream(int frames, int fine = 1) {
   Sequence out;
   out.frames.clear();
-  for (int f = 1; f <= frames; ++f) out.frames.push_back(f);
-  out.load = [](int frame) {
+  for (int f = 1; f <= frames * fine; ++f) out.frames.push_back(f);
+  out.rate = 24.0 * fine;
+  out.load = [fine](int frame) {
+    const double seconds = frame / (24.0 * fine);
     auto shape = std::make_shared<Shape>();
     Attribute id, velocity;
     id.name = "id";
@@ -75,14 +77,14 @@ inline Sequence arc_stream(int frames) {
     velocity.kind = Kind::Velocity;
     velocity.type = Type::Float32;
     velocity.components = 3;
-    const int first = std::max(0, 8 * (frame - 16)), last = 8 * frame;
+    const int first = std::max(0, 8 * (frame - 16 * fine) / fine), last = 8 * frame / fine;
     id.values.resize(static_cast<std::size_t>(last - first) * id.row_size());
     velocity.values.resize(static_cast<std::size_t>(last - first) * velocity.row_size());
     for (int p = first; p < last; ++p) {
       const auto i = static_cast<std::size_t>(p - first);
-      shape->positions.push_back(arc_position(p, frame / 24.0));
+      shape->positions.push_back(arc_position(p, seconds));
       id.set_number(i, 0, p);
-      for (int c = 0; c < 3; ++c) velocity.set_number(i, c, arc_velocity(p, frame / 24.0)[c]);
+      for (int c = 0; c < 3; ++c) velocity.set_number(i, c, arc_velocity(p, seconds)[c]);
     }
     shape->attributes = {id, velocity};
     return std::shared_ptr<const Shape>(std::move(shape));

@@ -253,7 +253,7 @@ TEST_P(PointCaches, TasksShareOneFile) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
 
   options.frames.pop_back();
-  EXPECT_NE(sentence_of([&] { run(path, 10); }).find("another one (--force replaces it)"), std::string::npos);
+  EXPECT_NE(sentence_of([&] { run(path, 10); }).find("(--force replaces it)"), std::string::npos);
   options.force = true;
   for (int i = 1; i <= 3; ++i) {
     options.share = Share{i, 3};
