@@ -61,7 +61,8 @@ struct Label {
   double distance;
   Index node, vertex;
   bool operator<(const Label& other) const {
-    return std::tie(distance, node, vertex) > std::tie(other.distance, other.node, other.vertex);
+    if (distance != other.distance) return distance > other.distance;
+    return std::tie(node, vertex) > std::tie(other.node, other.vertex);
   }
 };
 
@@ -72,7 +73,8 @@ class Sweep {
     out_.width = width;
     out_.node.assign(graph.size() * width, NearestNodes::none);
     out_.distance.assign(graph.size() * width, infinite);
-    settled_.assign(graph.size() * width, false);
+    settled_.assign(graph.size() * width, 0);
+    done_.assign(graph.size(), 0);
   }
 
   NearestNodes run(const std::function<bool(double)>& progress) {
@@ -83,8 +85,9 @@ class Sweep {
       queue_.pop();
       const std::size_t entry = entry_of(label.vertex, label.node);
       // A better way came later, or as many nodes are nearer.
-      if (entry == absent || settled_[entry] || out_.distance[entry] != label.distance) continue;
-      settled_[entry] = true;
+      if (entry == absent || settled_[entry] != 0 || out_.distance[entry] != label.distance) continue;
+      settled_[entry] = 1;
+      ++done_[label.vertex];
       spread(label);
       if (++settled % 65536 == 0 && progress && !progress(static_cast<double>(settled) / static_cast<double>(all)))
         return {};
@@ -135,7 +138,8 @@ class Sweep {
     if (std::tie(distance, node) >= std::tie(out_.distance[entry], out_.node[entry])) return;
     out_.distance[entry] = distance;
     out_.node[entry] = node;
-    settled_[entry] = false;
+    if (settled_[entry] != 0) --done_[vertex];
+    settled_[entry] = 0;
     queue_.push({distance, node, vertex});
   }
 
@@ -144,10 +148,11 @@ class Sweep {
     const Vec3& p = graph_.vertices[at.vertex];
     known_.clear();
     for (const Index q : graph_[at.vertex])
-      if (const std::size_t e = entry_of(q, at.node); e != absent && settled_[e])
+      if (const std::size_t e = entry_of(q, at.node); e != absent && settled_[e] != 0)
         known_.push_back({q, out_.distance[e], graph_.vertices[q] - p});
     for (const Index r : graph_[at.vertex]) {
-      if (const std::size_t e = entry_of(r, at.node); e != absent && settled_[e]) continue;
+      if (done_[r] == width_) continue;
+      if (const std::size_t e = entry_of(r, at.node); e != absent && settled_[e] != 0) continue;
       const Vec3 to_r = graph_.vertices[r] - p;
       double shortest = at.distance + to_r.norm();
       const std::span<const Index> around = graph_[r];
@@ -174,7 +179,7 @@ class Sweep {
     const double y = std::sqrt(y_square), h = std::sqrt(h_square);
     const double crossing = s + (x - s) * h / (y + h);
     if (!(crossing >= 0 && crossing <= c)) return infinite;
-    return std::hypot(x - s, y + h);
+    return std::sqrt((x - s) * (x - s) + (y + h) * (y + h));
   }
 
   void sort_rows() {
@@ -191,7 +196,8 @@ class Sweep {
   const Curtains& curtains_;
   std::size_t width_;
   NearestNodes out_;           ///< while it runs: the best ways known so far, in no order
-  std::vector<bool> settled_;  ///< of each entry of out_
+  std::vector<char> settled_;  ///< of each entry of out_
+  std::vector<Index> done_;    ///< entries of each vertex that are settled
   std::priority_queue<Label> queue_;
   std::vector<Known> known_;
 };
@@ -199,7 +205,7 @@ class Sweep {
 }  // namespace
 
 double surface_edge_length(const Shape& shape, std::span<const Vec3> nodes) {
-  return edge_length_for(shape, 0.5 * node_spacing(nodes), nodes.size() + shape.size());
+  return edge_length_for(shape, 0.75 * node_spacing(nodes), nodes.size() + shape.size());
 }
 
 NeighbourGraph surface_graph(const Shape& shape, const Places& places, std::span<const Vec3> nodes, int enough,

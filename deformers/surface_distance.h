@@ -19,7 +19,7 @@ struct NearestNodes {
   std::vector<double> distance;
 };
 
-/// How long edges may be (surface_of) where a shape is to be no coarser than the graph of its nodes: half the median
+/// How long edges may be (surface_of) where a shape is to be no coarser than the graph of its nodes: 3/4 of the median
 /// distance between these, but not so short that more points than some 16 a node and point were added.
 double surface_edge_length(const Shape& shape, std::span<const Vec3> nodes);
 
