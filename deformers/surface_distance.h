@@ -38,7 +38,7 @@ NeighbourGraph surface_graph(const Shape& shape, const Places& places, std::span
 /// triangle is laid into the plane, the node's image is the point at a from p and b from q on the side away from r, and
 /// if the line from it to r passes between p and q, its length is r's distance [after Novotni and Klein: Computing
 /// geodesic distances on triangular meshes, 2002]; else it is the way through p or through q. On flat parts the
-/// distances are therefore the straight ones, not those of zigzags along edges.
+/// distances are therefore nearly the straight ones, not those of zigzags along edges.
 ///
 /// The result is empty where progress (0..1) said false. Serial: threads do not change a bit.
 NearestNodes nearest_along_surface(const NeighbourGraph& graph, std::span<const Vec3> nodes, int width,
