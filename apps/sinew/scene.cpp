@@ -93,7 +93,7 @@ void color_by_splats(const gpu::Splats& splats, const gpu::Camera& camera, std::
     const Vec3 from_eye = splats.centre + splats.positions[i].cast<double>() - camera.eye;
     const Eigen::Vector3f color = gpu::splat_color(splats, i, from_eye.normalized().cast<float>());
     if (!color.allFinite()) continue;
-    const auto byte = [&](int c) { return static_cast<std::uint8_t>(255 * std::min(1.0f, color[c]) + 0.5f); };
+    const auto byte = [&](int c) { return static_cast<std::uint8_t>(std::lround(255 * std::min(1.0f, color[c]))); };
     colors[i] = {byte(0), byte(1), byte(2), 0};
   }
 }

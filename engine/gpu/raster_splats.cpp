@@ -40,7 +40,7 @@ struct Band {
     each_pixel([&](std::size_t i, std::size_t pixel) {
       std::uint32_t color = 0xff000000u;
       for (std::size_t c = 0; c < 3; ++c)
-        color |= static_cast<std::uint32_t>(channels[c][i] * 255.0f + 0.5f) << shift(out, c);
+        color |= static_cast<std::uint32_t>(std::lround(channels[c][i] * 255.0f)) << shift(out, c);
       out.colors[pixel] = color;
     });
   }

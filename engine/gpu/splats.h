@@ -32,7 +32,9 @@ struct Splats {
   int degree = 0;                          ///< of the harmonics, 0..3
   std::vector<Eigen::Vector3f> harmonics;  ///< (degree + 1)^2 a splat: red, green, blue of each c_k
 
-  std::size_t coefficients() const { return static_cast<std::size_t>((degree + 1) * (degree + 1)); }
+  std::size_t coefficients() const {
+    return static_cast<std::size_t>(degree + 1) * static_cast<std::size_t>(degree + 1);
+  }
 };
 
 /// Whether the shape's points have a Quaternion, a LogScale and a number "opacity" each.

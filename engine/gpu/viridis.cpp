@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace sinew::gpu {
 
@@ -19,7 +20,7 @@ PointColor viridis(double x) {
   const std::size_t low = std::min<std::size_t>(7, static_cast<std::size_t>(at));
   const double part = at - static_cast<double>(low);
   const auto channel = [&](std::size_t c) {
-    return static_cast<std::uint8_t>(table[low][c] + part * (table[low + 1][c] - table[low][c]) + 0.5);
+    return static_cast<std::uint8_t>(std::lround(table[low][c] + part * (table[low + 1][c] - table[low][c])));
   };
   return {channel(0), channel(1), channel(2), 0};
 }

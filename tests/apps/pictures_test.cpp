@@ -22,8 +22,8 @@ struct Row {
   std::vector<std::string> arguments;
 };
 
-void PrintTo(const Row& row, std::ostream* out) {
-  *out << row.name;
+std::ostream& operator<<(std::ostream& out, const Row& row) {
+  return out << row.name;
 }
 
 std::vector<Row> rows() {

@@ -30,8 +30,9 @@ std::string splats_ply() {
     text += std::string("property float ") + name + "\n";
   text += "end_header\n";
   for (int i = 0; i < 112; ++i) {
-    const std::string x = i < 111 ? std::to_string(0.2 * (i % 11) - 1) : "100000";
-    text += x + " " + std::to_string(0.03 * (i / 11)) + " 0 1.7 -1.7 -1.7 3 -2 -2 -2 1 0 0 0\n";
+    const int column = i % 11, row = i / 11;
+    text += (i < 111 ? std::to_string(0.2 * column - 1) : "100000") + " " + std::to_string(0.03 * row) +
+            " 0 1.7 -1.7 -1.7 3 -2 -2 -2 1 0 0 0\n";
   }
   return text;
 }
@@ -40,7 +41,7 @@ std::string splats_ply() {
 double covered(const gpu::Picture& picture) {
   std::size_t n = 0;
   for (std::size_t i = 0; i < picture.rgba.size(); i += 4) n += picture.rgba[i] > 80;
-  return static_cast<double>(n) / static_cast<double>(picture.rgba.size() / 4);
+  return static_cast<double>(n) / (0.25 * static_cast<double>(picture.rgba.size()));
 }
 
 /// The render of `arguments`, which must succeed.
