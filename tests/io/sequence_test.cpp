@@ -107,12 +107,12 @@ TEST(Sequence, OutputsAreRefusedBeforeTheyBegin) {
 
 TEST(Sequence, SharesAreThePartsOfTheWhole) {
   for (const std::size_t n : {0u, 1u, 5u, 48u, 1000u})
-    for (const int count : {1, 2, 3, 7, 60}) {
+    for (const std::uint64_t count : {1, 2, 3, 7, 60}) {
       std::size_t next = 0;
-      for (int i = 1; i <= count; ++i) {
+      for (std::uint64_t i = 1; i <= count; ++i) {
         const Share share{i, count};
         EXPECT_EQ(share.first(n), next);
-        EXPECT_LE(share.last(n) - share.first(n), n / static_cast<std::size_t>(count) + 1);
+        EXPECT_LE(share.last(n) - share.first(n), n / count + 1);
         next = share.last(n);
       }
       EXPECT_EQ(next, n);
@@ -120,7 +120,7 @@ TEST(Sequence, SharesAreThePartsOfTheWhole) {
   const TemporaryFolder folder;
   FrameWriterOptions options = with(first_to(10));
   for (int i = 3; i >= 1; --i) {
-    options.share = Share{i, 3};
+    options.share = Share{static_cast<std::uint64_t>(i), 3};
     write_all(folder / "run.####.ply", options);
   }
   EXPECT_EQ(open_sequence(folder / "run.####.ply").frames, first_to(10));
