@@ -227,7 +227,8 @@ std::function<int()> declare_submit(Arguments& arguments) {
       "--log", "DIR", options->log,
       "Folder for messages and exit statuses of the tasks, which all machines see (default: sinew-submit)");
   arguments.flag("--resume", options->resume,
-                 "Run only those tasks of an earlier submit again that did not end with 0");
+                 "Run only those tasks of an earlier submit again that did not end with 0; those of deform need its "
+                 "--force for frames that they had written");
   arguments.flag("--force", options->force, "Replace the log of an earlier submit");
   arguments.positionals("COMMAND", options->command, "deform or apply with all it takes, after --");
   return [options] { return run(*options); };

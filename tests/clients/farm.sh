@@ -1,14 +1,16 @@
 #!/usr/bin/env bash
 # farm.sh PROGRAMS scan [POINTS]
+# farm.sh PROGRAMS gallop
 # farm.sh PROGRAMS command TASKS COMMAND...
 #
 # Runs one command of sinew alone, then as tasks through a real Slurm (controller, daemon and munge of its own on this
 # machine, as root, without systemd) and through GNU parallel. In both one task is killed by SIGKILL while it runs; submit has
 # to name it and to leave with 5, and --resume has to run that task, and no other, again. The outputs have to have the same bytes.
 #   scan      bends the sample scan with POINTS (50,000,000) points: sinew apply in 8 tasks
+#   gallop    turns the head of the galloping horse of the shared data over 48 frames: sinew deform in 6 tasks
 #   command   any command that has --task; {} in it stands for the folder of its outputs, all of which are compared:
 #             farm.sh build/bin command 6 deform walk.####.obj --edit walk.json -o {}/bent.####.obj --force
-# Prints how long each took. Leaves nothing behind.
+# Prints how long each took. Leaves nothing behind. Exit status 77: skipped, with the reason.
 set -euo pipefail
 programs=$(realpath "$1") what=$2
 shift 2
@@ -116,17 +118,23 @@ END
 # The command with the folder of its outputs.
 command_to() { local folder=$1 word; shift; for word; do printf '%s\0' "${word//\{\}/$folder}"; done; }
 
-# Kills the sinew, not its shell, that runs this task of this test.
+# Finds the sinew, not its shell, that runs this task of this test, waits until it has written something, and kills it.
 kill_task() {
-  local process arguments
-  for process in /proc/[0-9]*; do
-    { mapfile -d '' -t arguments <"$process/cmdline"; } 2>/dev/null || continue
-    [[ ${arguments[0]:-} == "$sinew" && " ${arguments[*]} " == *" --task $1 "* && "${arguments[*]}" == *"$work"* ]] ||
-      continue
-    kill -KILL "${process#/proc/}" 2>/dev/null && return
+  local end=$((SECONDS + 300)) process arguments written
+  while [ $SECONDS -lt $end ]; do
+    for process in /proc/[0-9]*; do
+      { mapfile -d '' -t arguments <"$process/cmdline"; } 2>/dev/null || continue
+      [[ ${arguments[0]:-} == "$sinew" && "${arguments[*]}" == *" --task $1" && "${arguments[*]}" == *"$work"* ]] || continue
+      while { read -r _ && read -r _ written; } 2>/dev/null <"$process/io" && [ "${written:-0}" -eq 0 ]; do :; done
+      kill -KILL "${process#/proc/}" 2>/dev/null && return
+    done
+    sleep 0.01
   done
-  return 1
+  fail "task $1 has not been seen while it ran"
 }
+
+# Whether a folder has the outputs of the single run; a file that a killed task had not finished is none.
+same() { diff -r --exclude='.sinew-*.part' "$work/single" "$1" >/dev/null 2>&1; }
 
 # through ENGINE TASKS: as tasks with one killed, that one again, compared with the single run.
 through() {
@@ -137,18 +145,18 @@ through() {
   local submit=("$sinew" submit --engine "$engine" --tasks "$tasks" --log "$work/submit")
   timed "$engine, $tasks tasks, one killed" "${submit[@]}" -- "${command[@]}" 2>"$work/messages.log" &
   local job=$!
-  until_done 300 kill_task "$victim/$tasks"
+  kill_task "$victim/$tasks"
   wait "$job" || status=$?
   [ "$status" -eq 5 ] || fail "$engine: expected status 5 after a task was killed, found $status"
   grep -qF "1 of $tasks tasks failed, $victim;" "$work/messages.log" || fail "$engine: the killed task is not named"
-  ! diff -r "$work/single" "$out" >/dev/null 2>&1 || fail "$engine: the killed task left nothing undone"
+  ! same "$out" || fail "$engine: the killed task left nothing undone"
   local others="$work/others" again="$work/again"
   stat -c '%n %y' "$work"/submit/*.status | grep -v "/$victim.status" >"$others"
   timed "$engine, that task again" "${submit[@]}" --resume -- "${command[@]}" 2>"$work/messages.log" ||
     fail "$engine: --resume left with status $?"
   stat -c '%n %y' "$work"/submit/*.status | grep -v "/$victim.status" >"$again"
   cmp -s "$others" "$again" || fail "$engine: --resume ran more than the task that was killed"
-  diff -r "$work/single" "$out" >/dev/null || fail "$engine: the outputs have other bytes than the single run"
+  same "$out" || fail "$engine: the outputs have other bytes than the single run"
   rm -rf "$out" "$work/submit"
 }
 
@@ -172,7 +180,19 @@ case $what in
     "$sinew" deform "$work/scan.ply" --edit "$work/scan.edit.json" -o "$work/bent.ply" --pose "$work/look back.pose"
     farm 8 apply "$work/look back.pose" "$work/large.ply" -o "{}/bent.ply"
     ;;
+  gallop)
+    frames=${SINEW_SHARED:-$(dirname "$0")/../../../shared}/data/anim/horse_gallop_obj
+    [ -d "$frames" ] || { echo "skipped: no shared data: $frames"; exit 77; }
+    echo "the horse's gallop, sinew deform"
+    cat >"$work/head.json" <<END
+{ "sinew": 1, "layers": [ { "method": "graph", "settings": { "nodes": 200 },
+  "fixed": [ { "box": [[-1, -1, -2], [1, 0.7, 2]] } ],
+  "handles": [ { "points": { "box": [[-1, 1.15, 0.5], [1, 2, 2]] }, "move": [0, 0, 0] } ],
+  "keys": [ { "frame": 1, "handles": [ { "move": [0, 0, 0] } ] }, { "frame": 24, "handles": [ { "move": [0.2, 0.1, 0] } ] } ] } ] }
+END
+    farm 6 deform "$(realpath "$frames")/####.obj" --edit "$work/head.json" -o "{}/bent.####.obj" --force
+    ;;
   command) farm "$@" ;;
-  *) echo "farm.sh: expected scan or command, found '$what'"; exit 2 ;;
+  *) echo "farm.sh: expected scan, gallop or command, found '$what'"; exit 2 ;;
 esac
 echo passed
