@@ -78,11 +78,16 @@ class GraphDeformer final : public Deformer {
 
   void follow(std::shared_ptr<const Shape> rest) override {
     CHECK(rest->size() == rest_->size(), rest->size(), rest_->size());
-    if (carriers_.empty()) carriers_ = nearest_points(*rest_, nodes_);
-    // A node between points keeps its place beside the nearest one.
+    if (carriers_.empty()) {
+      carriers_ = nearest_points(*rest_, nodes_);
+      for (const Index i : carriers_) carrier_rest_.push_back(rest_->positions[i]);
+      made_nodes_ = nodes_;
+    }
+    // A node between points keeps its place beside the nearest one. From where it was made: steps from frame to frame
+    // would add up roundings, and the answer depend in its last digits on the frames before.
     for (std::size_t j = 0; j < nodes_.size(); ++j) {
-      const Vec3 moved = rest->positions[carriers_[j]] - rest_->positions[carriers_[j]];
-      if (moved.allFinite()) nodes_[j] += moved;
+      const Vec3 moved = rest->positions[carriers_[j]] - carrier_rest_[j];
+      nodes_[j] = moved.allFinite() ? made_nodes_[j] + moved : made_nodes_[j];
     }
     rest_ = std::move(rest);
     influence_.follow(nodes_, *rest_);
@@ -196,7 +201,8 @@ class GraphDeformer final : public Deformer {
   GraphSolver solver_;
   std::vector<Index> fixed_, handle_points_;
   std::vector<Index> carriers_;  ///< of each node, the point of the shape that carries it; empty until follow()
-  bool prepared_ = true;         ///< the solver knows the constraints and where the nodes are
+  std::vector<Vec3> made_nodes_, carrier_rest_;  ///< where the structure was made: its nodes, and their carriers
+  bool prepared_ = true;                         ///< the solver knows the constraints and where the nodes are
   Pose pose_;
 };
 

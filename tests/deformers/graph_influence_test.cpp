@@ -344,4 +344,21 @@ TEST(GraphInfluence, FollowsAnotherFrame) {
   EXPECT_EQ(bound.weights, before.weights);
 }
 
+TEST(GraphInfluence, WhereItFollowsToDoesNotDependOnTheWay) {
+  const Shape shape = two_sheets(true);
+  const auto frame = [&shape](double time) {
+    Shape out = shape;
+    for (Vec3& p : out.positions) p += Vec3(0.1 * time, std::sin(time + p.x()) / 3, 0.7 * p.y());
+    return std::make_shared<const Shape>(out);
+  };
+  const auto one = deformer_of(shape, options_of(true)), other = deformer_of(shape, options_of(true));
+  const std::vector<Vec3> made = one->structure().vertices;
+  one->follow(frame(9));
+  for (int time = 1; time <= 9; ++time) other->follow(frame(time));
+  EXPECT_EQ(one->structure().vertices, other->structure().vertices);
+  other->follow(std::make_shared<Shape>(shape));
+  EXPECT_EQ(other->structure().vertices, made);
+  EXPECT_NE(one->structure().vertices, made);
+}
+
 }  // namespace sinew
