@@ -63,8 +63,8 @@ class GraphDeformer final : public Deformer {
         influence_(std::move(influence)),
         weights_(std::move(bound.weights)),
         notes_(std::move(notes)),
-        solver_(normalised(nodes_), std::move(bound.edges), {options.w_rot, options.w_reg, options.w_con},
-                options.plain) {
+        solver_(normalised(nodes_), std::move(bound.edges),
+                {options.w_rot, options.w_reg, options.w_con, options.chain ? 0.1 : 0}, options.plain) {
     publish();
   }
 
@@ -264,6 +264,7 @@ std::unique_ptr<Deformer> make(std::shared_ptr<const Shape> rest, const Settings
   options.w_con = value("constraint");
   options.plain = value("solver") == 1;
   options.given.assign(wishes.points.begin(), wishes.points.end());
+  options.chain = wishes.chain;
   return make_graph_deformer(std::move(rest), options, progress);
 }
 
@@ -283,6 +284,11 @@ std::unique_ptr<Deformer> make_graph_deformer(std::shared_ptr<const Shape> rest,
   std::optional<GraphInfluence::Bound> bound =
       influence.bind_shape(*rest, notes, [&](double done) { return !progress || progress(0.2 + 0.8 * done); });
   if (!bound) return nullptr;
+  if (options.chain) {
+    CHECK(!options.given.empty());
+    bound->edges.clear();
+    for (Index j = 0; j + 1 < nodes.size(); ++j) bound->edges.emplace_back(j, j + 1);
+  }
   return std::make_unique<GraphDeformer>(std::move(rest), options, std::move(nodes), std::move(influence),
                                          std::move(*bound), std::move(notes));
 }

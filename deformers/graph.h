@@ -23,6 +23,7 @@ struct GraphOptions {
   bool plain = false;        ///< the paper's Gauss-Newton from the start, a new factor each iteration: the reference
   std::vector<Index> given;  ///< points of the shape to be the nodes; empty: chosen
   std::vector<Cut> cuts;     ///< no influence passes through these
+  bool chain = false;        ///< edges join each of `given` to the next and no others [section 5, particle simulations]
 };
 
 /// Throws InputError where the shape has no finite point or a given node is not one. Null where progress said false.

@@ -68,6 +68,13 @@ void GraphEnergy::build(std::span<const Vec3> nodes, std::span<const std::pair<I
   const auto add_edge = [&](Index j, Index k) {
     const Vec3 d = reg * (nodes[k] - nodes[j]);
     add_row({{j, {d.x(), d.y(), d.z(), reg}}, {k, {0, 0, 0, -reg}}});
+    if (weights.around == 0) return;
+    const double length = (nodes[k] - nodes[j]).norm(), share = std::sqrt(weights.around);
+    for (int c = 0; c < 6; ++c) {
+      const Vec3 l = (c < 3 ? 1 : -1) * length * Vec3::Unit(c % 3);
+      const Vec3 a = share * (d + reg * l), b = -share * reg * l;
+      add_row({{j, {a.x(), a.y(), a.z(), share * reg}}, {k, {b.x(), b.y(), b.z(), -share * reg}}});
+    }
   };
   for (const auto& [j, k] : edges) {
     if (!free[j] && !free[k]) continue;  // both rest: the row is zero

@@ -30,6 +30,10 @@ namespace sinew {
 
 struct GraphWeights {
   double rotation = 1, regularization = 10, constraint = 100;  ///< w_rot, w_reg, w_con: the paper's
+  /// Of a chain of nodes, whose edges alone leave its twist undetermined where it is straight: eq. 7 is asked as well
+  /// of the six points at an edge's length l around the node, R_j (g_k + l e - g_j) + g_j + t_j = g_k + t_k + R_k l e,
+  /// with this share of the weight each.
+  double around = 0;
 };
 
 /// x: R_j and t_j of all m nodes. Fixed nodes have R = I, t = 0.

@@ -23,7 +23,7 @@ namespace sinew::app {
 namespace {
 
 struct Options {
-  std::string input, from, png, edit, size = "1280x720", view = "iso", show, up = "y", point_size;
+  std::string input, from, png, edit, frame, size = "1280x720", view = "iso", show, up = "y", point_size;
   bool force = false;
 };
 
@@ -73,6 +73,14 @@ void check_fields(const std::set<std::string>& show, bool has_edit) {
         fmt::format("--show {}: expected an edit (--edit), found none", energy ? "energy" : "displacement"));
 }
 
+int frame_of(const Options& options, const Sequence& sequence) {
+  if (options.frame.empty()) return sequence.frames.front();
+  std::int64_t frame = 0;
+  if (!io::parse(options.frame, frame) || std::abs(frame) > 1'000'000'000)
+    throw UsageError("--frame: expected the number of a frame, found " + sinew::quoted(options.frame));
+  return static_cast<int>(frame);
+}
+
 gpu::Picture draw(const Shape& input, const document::Evaluation* evaluation, const View& view,
                   const std::set<std::string>& show) {
   const std::unique_ptr<gpu::Device> device = gpu::create_device({});
@@ -102,14 +110,19 @@ int run(const Options& options) {
     project = document::read_edit(options.edit);
     document::check_layers(project.layers, methods());
   }
-  const std::shared_ptr<const Shape> input = read_input(options.input, options.from);
+  const std::shared_ptr<const Sequence> sequence = open_input(options.input, options.from);
+  const int frame = frame_of(options, *sequence);
+  document::Workspace workspace(sequence, methods());
+  const std::shared_ptr<const Shape> input = workspace.input(frame);
+  for (const std::string& note : input->notes) message(options.input + ": " + note);
   std::optional<document::Evaluation> evaluation;
   if (!options.edit.empty()) {
     Progress progress("");
-    evaluation =
-        document::evaluate(input, project.layers, methods(), {[&](const char* what, std::size_t layer, double f) {
-                             return progress(fmt::format("{} layer {}", what, layer + 1), f);
-                           }});
+    document::EvaluateOptions evaluating;
+    evaluating.progress = [&](const char* what, std::size_t layer, double f) {
+      return progress(fmt::format("{} layer {}", what, layer + 1), f);
+    };
+    evaluation = document::evaluate(workspace, project.layers, frame, evaluating);
   }
   const gpu::Picture picture = draw(*input, evaluation ? &*evaluation : nullptr, view, show);
   const Writing writing;
@@ -121,9 +134,10 @@ int run(const Options& options) {
 
 std::function<int()> declare_render(Arguments& arguments) {
   const auto options = std::make_shared<Options>();
-  arguments.positional("INPUT", options->input, "File to draw; - with --from");
+  arguments.positional("INPUT", options->input, "File to draw, or frames: name.####.obj; - with --from");
   arguments.option("-o,--output", "PNG", options->png, "Picture to write", true);
   arguments.option("-e,--edit", "EDIT.json", options->edit, "Draw the shape bent by this edit");
+  arguments.option("--frame", "N", options->frame, "Of frames (name.####.obj, name.pc2) or keys; the first without");
   arguments.option("--size", "WxH", options->size, "Pixels; 1280x720 without");
   arguments.option("--view", "VIEW", options->view,
                    "front, back, left, right, top, bottom, iso (without), or eye and target ex,ey,ez,tx,ty,tz");

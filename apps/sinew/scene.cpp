@@ -111,12 +111,12 @@ void color_splats(std::span<const gpu::PointColor> colors, bool field, const gpu
   }
 }
 
-/// A ball at the mean of each handle's bent points.
-void add_handles(const document::LayerResult& layer, const Shape& bent, gpu::Scene& scene) {
+/// A ball at the mean of where each handle's points are to be.
+void add_handles(const document::LayerResult& layer, gpu::Scene& scene) {
   for (const Handle& handle : layer.constraints.handles) {
     Vec3 sum = Vec3::Zero();
-    for (const Index i : handle.points) sum += bent.positions[i];
-    scene.dots.push_back(gpu::handle_dot(sum / static_cast<double>(handle.points.size()), scene.look.handle));
+    for (const Vec3& target : handle.targets) sum += target;
+    scene.dots.push_back(gpu::handle_dot(sum / static_cast<double>(handle.targets.size()), scene.look.handle));
   }
 }
 
@@ -159,10 +159,11 @@ void add_layers(const document::Evaluation& evaluation, const std::set<std::stri
   const Field* energy = show.contains("energy") ? &*out.field : nullptr;
   for (std::size_t i = 0; i < evaluation.layers.size(); ++i) {
     const document::LayerResult& layer = evaluation.layers[i];
-    if (show.contains("fixed")) mark(colors, layer.constraints.fixed, gpu::shared::mark_fixed);
+    if (show.contains("fixed") && layer.of_frame) mark(colors, layer.constraints.fixed, gpu::shared::mark_fixed);
     if (show.contains("handles")) {
-      for (const Handle& handle : layer.constraints.handles) mark(colors, handle.points, gpu::shared::mark_handle);
-      add_handles(layer, *evaluation.shape, out.scene);
+      if (layer.of_frame)
+        for (const Handle& handle : layer.constraints.handles) mark(colors, handle.points, gpu::shared::mark_handle);
+      add_handles(layer, out.scene);
     }
     if (show.contains("graph"))
       add_structure(*layer.structure, *layer.pose, energy, evaluation.map_energies[i], out.scene);

@@ -378,6 +378,7 @@ LayerResult Workspace::result(std::size_t i, const Solved& solved) {
   out.structure = kept.structure;
   out.report = solved.report;
   out.constraints = solved.constraints;
+  out.of_frame = !footage_.stream();
   out.motions = solved.motions;
   out.centres = solved.centres;
   out.map_energy = solved.map_energy;

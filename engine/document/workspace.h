@@ -28,7 +28,9 @@ struct LayerResult {
   std::shared_ptr<const Pose> pose;
   std::shared_ptr<const Deformer::Structure> structure;  ///< of the layer's deformer at the frame, at rest, to draw
   SolveReport report;
-  Constraints constraints;      ///< that the pose was solved for; points of the layer's rest (Workspace::rest)
+  Constraints constraints;  ///< that the pose was solved for; points of the layer's rest (Workspace::rest)
+  /// Whether they are points of the frame's input, too; else of a stream's gathered ones (footage.h).
+  bool of_frame = true;
   std::vector<Motion> motions;  ///< of the handles at the frame, as a key there would have them
   std::vector<Vec3> centres;    ///< means of the handles' points at the frame, where the layer starts from
   std::shared_ptr<const std::vector<double>> map_energy;  ///< Deformer::map_energy of the pose

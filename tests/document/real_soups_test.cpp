@@ -143,7 +143,7 @@ TEST_P(RealSoups, AreBentAndNothingElseDiffers) {
   const Evaluation bent = evaluate(before, layers, methods());
   EXPECT_EQ(bent.reports.at(0).solve.status, Status::Converged) << bent.reports[0].solve.message;
   // Boxes of a few points and random triangles, all held or pulled, give way.
-  EXPECT_LT(bent.reports[0].handle_max, 0.1);
+  EXPECT_LT(bent.reports[0].handle_max, 0.15);
 
   const TemporaryFolder folder;
   const fs::path out = folder.path() / ("bent" + path.extension().string());
