@@ -109,12 +109,25 @@ constexpr const char* soup = R"({ "sinew": 1,
   } ] }
 )";
 
+/// The jet's nozzle stays; where it comes down is carried to the side, and its arc swings and rises along.
+constexpr const char* jet = R"({ "sinew": 1,
+  "layers": [ {
+    "name": "Swing",
+    "method": "graph",
+    "settings": { "neighbours": 3 },
+    "path": { "every": 4 },
+    "fixed": [ { "box": [[-0.2, 0, -0.5], [0.25, 2, 0.5]], "frame": 40 } ],
+    "handles": [ { "points": { "box": [[0.5, 0.5, -0.5], [0.9, 0.9, 0.5]], "frame": 40 }, "move": [0, 0.1, 0.12] },
+                 { "points": { "box": [[1.3, 0, -0.5], [2.2, 0.2, 0.5]], "frame": 40 }, "move": [0, 0, 0.6] } ]
+  } ] }
+)";
+
 }  // namespace
 
 std::string edit_of(const std::string& sample) {
   static const std::map<std::string, const char*> edits{{"scan", scan},     {"plane", plane},       {"bar", bar},
                                                         {"cactus", cactus}, {"cylinder", cylinder}, {"splats", splats},
-                                                        {"walk", walk},     {"soup", soup}};
+                                                        {"walk", walk},     {"soup", soup},         {"jet", jet}};
   const auto found = edits.find(sample);
   return found == edits.end() ? "" : found->second;
 }
