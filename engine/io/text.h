@@ -70,9 +70,9 @@ class TextCursor {
     return text_error(path_, at.line, at.column, expected, at.text.empty() ? "the end of the line" : quoted(at.text));
   }
 
-  /// The same where `at` is empty because the file ended.
+  /// The same where `at` is empty because the text ended.
   InputError error_at_end(const Token& at, const std::string& expected) const {
-    return text_error(path_, at.line, at.column, expected, "the end of the file");
+    return text_error(path_, at.line, at.column, expected, "the end of the data");
   }
 
   static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }

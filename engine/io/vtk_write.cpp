@@ -13,13 +13,20 @@ namespace {
 
 constexpr bool swap_big = std::endian::native != std::endian::big;
 
+bool is_keyword(std::string name) {
+  for (char& c : name)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
+  return name == "METADATA" || name == "NULL_ARRAY";
+}
+
 /// Special characters of names as %20.
 std::string encoded(const std::string& name) {
   static constexpr char hex[] = "0123456789ABCDEF";
   std::string out;
   for (const char c : name) {
     const auto byte = static_cast<unsigned char>(c);
-    if (byte > ' ' && byte < 127 && c != '%' && c != '"') {
+    // Words that mean something else where a name is expected get such a character too.
+    if (byte > ' ' && byte < 127 && c != '%' && c != '"' && !(out.empty() && is_keyword(name))) {
       out += c;
     } else {
       out += {'%', hex[byte >> 4], hex[byte & 15]};

@@ -6,126 +6,19 @@
 
 #include "engine/io/bytes.h"
 #include "engine/io/text_patch.h"
+#include "engine/io/xyz_names.h"
 #include "engine/io/xyz_row.h"
 
 namespace sinew::io {
 
 namespace {
 
-constexpr std::size_t most_columns = 256;
-
-/// Some columns that are one attribute. The first group is the position.
-struct Group {
-  std::string name;
-  Kind kind = Kind::Scalar;
-  std::vector<std::size_t> columns;
-};
-
 struct XyzContent : FileContent {
   bool csv = false;
   std::vector<std::byte> bytes;
   std::vector<std::size_t> rows;  ///< byte where each begins
-  std::vector<Group> groups;
+  std::vector<XyzGroup> groups;
 };
-
-std::string lower(std::string_view text) {
-  std::string out(text);
-  for (char& c : out)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return out;
-}
-
-/// The groups that are known by the names of their columns: all of the first `needed` names, or the group is not there.
-struct NamedGroup {
-  const char* name;
-  Kind kind;
-  std::size_t needed;
-  std::vector<const char*> columns;
-};
-
-const std::vector<NamedGroup>& named_groups() {
-  static const std::vector<NamedGroup> groups{
-      {"position", Kind::Point, 3, {"x", "y", "z"}},
-      {"position", Kind::Point, 3, {"points:0", "points:1", "points:2"}},
-      {"normal", Kind::Normal, 3, {"nx", "ny", "nz"}},
-      {"normal", Kind::Normal, 3, {"normal_x", "normal_y", "normal_z"}},
-      {"color", Kind::Color, 3, {"r", "g", "b", "a"}},
-      {"color", Kind::Color, 3, {"red", "green", "blue", "alpha"}},
-      {"color", Kind::Color, 3, {"rf", "gf", "bf"}},
-      {"velocity", Kind::Velocity, 3, {"vx", "vy", "vz"}},
-      {"velocity", Kind::Velocity, 3, {"velocity_x", "velocity_y", "velocity_z"}},
-      {"velocity", Kind::Velocity, 3, {"velocity:0", "velocity:1", "velocity:2"}},
-  };
-  return groups;
-}
-
-bool has_group(const std::vector<Group>& groups, const std::string& name) {
-  return std::any_of(groups.begin(), groups.end(), [&](const Group& group) { return group.name == name; });
-}
-
-std::vector<std::string> keys_of(const std::vector<std::string>& names) {
-  std::vector<std::string> keys;
-  for (const std::string& name : names) keys.push_back(lower(name));
-  return keys;
-}
-
-/// The columns of a group as far as they are there.
-std::vector<std::size_t> columns_of(const NamedGroup& known, const std::vector<std::string>& keys) {
-  std::vector<std::size_t> columns;
-  for (const char* key : known.columns) {
-    const auto at = std::find(keys.begin(), keys.end(), key);
-    if (at == keys.end()) break;
-    columns.push_back(static_cast<std::size_t>(at - keys.begin()));
-  }
-  return columns;
-}
-
-/// Names of columns are a line of names where x, y and z are among them.
-bool has_position(const std::vector<std::string>& names) {
-  const std::vector<std::string> keys = keys_of(names);
-  return std::any_of(named_groups().begin(), named_groups().end(), [&](const NamedGroup& known) {
-    return known.kind == Kind::Point && columns_of(known, keys).size() == known.needed;
-  });
-}
-
-std::vector<Group> groups_by_name(const std::vector<std::string>& names) {
-  const std::vector<std::string> keys = keys_of(names);
-  std::vector<bool> taken(names.size(), false);
-  std::vector<Group> groups;
-  for (const NamedGroup& known : named_groups()) {
-    const Group group{known.name, known.kind, columns_of(known, keys)};
-    if (group.columns.size() < known.needed || has_group(groups, known.name)) continue;
-    for (const std::size_t c : group.columns) taken[c] = true;
-    groups.push_back(group);
-  }
-  UniqueNames unique;
-  for (std::size_t c = 0; c < names.size(); ++c) {
-    if (taken[c]) continue;
-    const bool id = keys[c] == "label" || keys[c] == "class" || keys[c] == "classification" || keys[c] == "id";
-    groups.push_back({unique.add(names[c]), id ? Kind::Id : Kind::Scalar, {c}});
-  }
-  return groups;
-}
-
-/// The names in a line, two ways: "my speed, x" has blanks in names where separators stand between them.
-std::vector<std::vector<std::string>> split_names(std::string_view line) {
-  std::vector<std::vector<std::string>> ways(2);
-  XyzFields fields(line);
-  for (std::string_view field; fields.next(field) && ways[0].size() <= most_columns;) ways[0].emplace_back(field);
-  const std::string_view blanks = " \t\v\f\r";
-  while (line.find_first_not_of(blanks) != std::string_view::npos && ways[1].size() <= most_columns) {
-    line.remove_prefix(line.find_first_not_of(blanks));
-    const std::size_t quote = line.front() == '"' ? line.find('"', 1) : std::string_view::npos;
-    const std::size_t end =
-        std::min(line.find_first_of(",;\t", quote == std::string_view::npos ? 0 : quote), line.size());
-    std::string_view name = line.substr(0, end);
-    name = name.substr(0, name.find_last_not_of(blanks) + 1);
-    if (name.size() > 1 && name.front() == '"' && name.back() == '"') name = name.substr(1, name.size() - 2);
-    ways[1].emplace_back(name);
-    line.remove_prefix(std::min(end + 1, line.size()));
-  }
-  return ways;
-}
 
 using Columns = std::vector<std::vector<double>>;
 
@@ -148,9 +41,9 @@ bool are_unit_vectors(const Columns& columns, std::size_t first) {
   return any;
 }
 
-std::vector<Group> groups_by_value(const Columns& columns) {
+std::vector<XyzGroup> groups_by_value(const Columns& columns) {
   const std::size_t n = columns.size();
-  std::vector<Group> groups{{"position", Kind::Point, {0, 1, 2}}};
+  std::vector<XyzGroup> groups{{"position", Kind::Point, {0, 1, 2}}};
   std::vector<bool> taken(n, false);
   const auto take = [&](const char* name, Kind kind, std::size_t first) {
     groups.push_back({name, kind, {first, first + 1, first + 2}});
@@ -167,7 +60,7 @@ std::vector<Group> groups_by_value(const Columns& columns) {
       break;
     }
   for (std::size_t c = 3; c < n; ++c) {
-    const bool intensity = c == 3 && (n == 4 || (n == 7 && has_group(groups, "color") && taken[6]));
+    const bool intensity = c == 3 && (n == 4 || (n == 7 && has_xyz_group(groups, "color") && taken[6]));
     if (!taken[c]) groups.push_back({intensity ? "intensity" : "column " + std::to_string(c + 1), Kind::Scalar, {c}});
   }
   return groups;
@@ -226,8 +119,8 @@ class XyzReader {
 
   bool read_names(std::string_view line, bool comment) {
     bool good = false;
-    for (std::vector<std::string>& names : split_names(line)) {
-      if (names.size() > most_columns || !has_position(names)) continue;
+    for (std::vector<std::string>& names : split_xyz_names(line)) {
+      if (names.size() > most_xyz_columns || !has_xyz_position(names)) continue;
       if (!good) names_.clear();
       good = true;
       names_.push_back(std::move(names));
@@ -253,7 +146,7 @@ class XyzReader {
     for (std::string_view field; fields.next(field); ++c) {
       if (c == columns_.size()) {
         if (!first_row) throw wrong_length(fields, c + 1);
-        if (c == most_columns) throw text_error(path_, line_, 0, "at most 256 numbers in a row", "more");
+        if (c == most_xyz_columns) throw text_error(path_, line_, 0, "at most 256 numbers in a row", "more");
         columns_.emplace_back();
         precision_.emplace_back();
       }
@@ -284,7 +177,7 @@ class XyzReader {
 
   Shape finish() {
     choose_names();
-    content_->groups = has_names() ? groups_by_name(column_names_) : groups_by_value(columns_);
+    content_->groups = has_names() ? xyz_groups(column_names_) : groups_by_value(columns_);
     Shape shape;
     take_positions(shape, content_->groups.front());
     for (std::size_t g = 1; g < content_->groups.size(); ++g) add_attribute(shape, content_->groups[g]);
@@ -292,7 +185,7 @@ class XyzReader {
     return shape;
   }
 
-  void take_positions(Shape& shape, const Group& group) {
+  void take_positions(Shape& shape, const XyzGroup& group) {
     bool as_float = true;
     for (const std::size_t c : group.columns)
       as_float = as_float && precision_[c].type() == Type::Float32 &&
@@ -307,7 +200,7 @@ class XyzReader {
     }
   }
 
-  void add_attribute(Shape& shape, const Group& group) {
+  void add_attribute(Shape& shape, const XyzGroup& group) {
     const std::size_t n = content_->rows.size(), size = group.columns.size();
     Type type = Type::Float32;
     for (const std::size_t c : group.columns)
@@ -327,13 +220,14 @@ class XyzReader {
   bool has_names() const { return !column_names_.empty(); }
 
   /// By CloudCompare's habit Rf Gf Bf are fractions.
-  bool is_byte_color(const Group& group) const {
-    if (group.kind != Kind::Color || (has_names() && lower(column_names_[group.columns.front()]) == "rf")) return false;
+  bool is_byte_color(const XyzGroup& group) const {
+    if (group.kind != Kind::Color || (has_names() && xyz_lower(column_names_[group.columns.front()]) == "rf"))
+      return false;
     return std::all_of(group.columns.begin(), group.columns.end(),
                        [&](std::size_t c) { return are_bytes(columns_[c]); });
   }
 
-  static std::string group_field(const Group& group, std::size_t k) {
+  static std::string group_field(const XyzGroup& group, std::size_t k) {
     static const std::array<const char*, 3> normal = {"nx", "ny", "nz"}, color = {"r", "g", "b"};
     return group.kind == Kind::Normal ? normal[k] : color[k];
   }
@@ -368,7 +262,7 @@ std::vector<std::byte> patched(const Shape& shape, const XyzContent& content) {
     int component = 0;
   };
   std::vector<Source> sources;
-  for (const Group& group : content.groups)
+  for (const XyzGroup& group : content.groups)
     for (std::size_t k = 0; k < group.columns.size(); ++k) {
       if (group.columns[k] >= sources.size()) sources.resize(group.columns[k] + 1);
       sources[group.columns[k]] = {&group == &content.groups.front() ? nullptr : shape.find(group.name),
@@ -398,7 +292,7 @@ bool is_velocity(const Attribute& attribute) {
   return attribute.name == "velocity" && attribute.kind == Kind::Velocity && attribute.components == 3;
 }
 
-/// Names of columns that groups_by_name reads back as the same attribute.
+/// Names of columns that xyz_groups reads back as the same attribute.
 std::vector<std::string> names_of(const Attribute& attribute) {
   if (attribute.name == "color" && attribute.kind == Kind::Color) {
     const bool bytes = attribute.type == Type::UInt8 || attribute.components == 1;
@@ -412,8 +306,8 @@ std::vector<std::string> names_of(const Attribute& attribute) {
   for (const std::string& field : attribute.fields) {
     names.push_back(field);
     for (char& c : names.back())
-      if (c == ' ' || c == '\t' || c == ',' || c == ';' || c == '#' || c == '/' || c == '"' || c == '\n' || c == '\r')
-        c = '_';
+      if (static_cast<unsigned char>(c) <= ' ' || c == ',' || c == ';' || c == '#' || c == '/' || c == '"') c = '_';
+    if (names.back().empty()) names.back() = "_";
   }
   return names;
 }
@@ -470,7 +364,7 @@ std::vector<std::byte> write(const Shape& shape, bool csv, WriteReport& report) 
   const auto* content = dynamic_cast<const XyzContent*>(shape.content.get());
   if (!content || content->csv != csv || !same_layout(shape, *content)) return generic(shape, csv, report);
   std::vector<std::string> held;
-  for (const Group& group : content->groups) held.push_back(group.name);
+  for (const XyzGroup& group : content->groups) held.push_back(group.name);
   report_lost_attributes(csv ? "CSV" : "XYZ", shape, held, report);
   return patched(shape, *content);
 }

@@ -10,6 +10,8 @@
 #include "engine/io/scan_set.h"
 #include "engine/io/stl.h"
 #include "engine/io/values.h"
+#include "engine/io/vtk_array.h"
+#include "engine/io/vtp.h"
 #include "tests/fuzz/fuzz_format.h"
 
 namespace sinew::io {
@@ -45,6 +47,17 @@ inline void fuzz_ply(std::span<const std::uint8_t> data) {
 
 inline void fuzz_stl(std::span<const std::uint8_t> data) {
   fuzz_format(read_stl, write_stl, data);
+}
+
+/// As what the file was: a PolyData or an UnstructuredGrid.
+inline std::vector<std::byte> write_vtk_xml(const std::string& path, const Shape& shape, WriteReport& report) {
+  const auto* content = dynamic_cast<const VtkContent*>(shape.content.get());
+  const bool grid = content && content->form == VtkContent::Form::UnstructuredGrid;
+  return grid ? write_vtu(path, shape, report) : write_vtp(path, shape, report);
+}
+
+inline void fuzz_vtp(std::span<const std::uint8_t> data) {
+  fuzz_format(read_vtp, write_vtk_xml, data);
 }
 
 /// A folder with two scans, "a.ply" and "b.obj", for the .conf files of the fuzzer; made anew for each process.

@@ -1,9 +1,11 @@
 #include <filesystem>
 #include <iostream>
 
+#include "engine/io/bgeo.h"
 #include "engine/io/obj.h"
 #include "engine/io/off.h"
 #include "engine/io/pcd.h"
+#include "engine/io/vtk.h"
 #include "engine/io/xyz.h"
 #include "tests/fuzz/targets.h"
 #include "tests/io/file_checks.h"
@@ -40,11 +42,12 @@ TEST_P(Seeds, EndInAShapeOrASentence) {
   EXPECT_GT(count, 4u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, Seeds,
-                         testing::Values(Target{"ply", fuzz_ply}, Target{"stl", fuzz_stl},
-                                         Target{"conf", fuzz_scan_set}, Target{"obj", fuzz<read_obj, write_obj>},
-                                         Target{"off", fuzz<read_off, write_off>},
-                                         Target{"xyz", fuzz<read_xyz, write_xyz>},
-                                         Target{"pcd", fuzz<read_pcd, write_pcd>}));
+INSTANTIATE_TEST_SUITE_P(
+    Formats, Seeds,
+    testing::Values(Target{"ply", fuzz_ply}, Target{"stl", fuzz_stl}, Target{"conf", fuzz_scan_set},
+                    Target{"obj", fuzz<read_obj, write_obj>}, Target{"off", fuzz<read_off, write_off>},
+                    Target{"xyz", fuzz<read_xyz, write_xyz>}, Target{"csv", fuzz<read_csv, write_csv>},
+                    Target{"pcd", fuzz<read_pcd, write_pcd>}, Target{"vtp", fuzz_vtp},
+                    Target{"bgeo", fuzz<read_bgeo, write_bgeo>}, Target{"vtk", fuzz<read_vtk, write_vtk>}));
 
 }  // namespace sinew::io

@@ -90,6 +90,62 @@ TEST(Xyz, MeaningOfColumnsByName) {
   EXPECT_EQ(meaning("# x y z a\n0 0 0\n"), "");
 }
 
+TEST(Xyz, VelocitiesByName) {
+  EXPECT_EQ(meaning("# x y z Vx vY vz\n0 0 0 1 2 3\n"), "velocity:velocity:float32:3 ");
+  EXPECT_EQ(meaning("velocity_x,velocity_y,velocity_z,x,y,z\n1,2,3,0,0,0\n"), "velocity:velocity:float32:3 ");
+  EXPECT_EQ(meaning("x y z velocity vx vy vz\n0 0 0 9 1 2 3\n"),
+            "velocity:velocity:float32:3 velocity 2:scalar:float32:1 ");
+}
+
+const char* const odd_csv =
+    "\"id\",\"Z\", vx ,vz,vy,my speed, \"an, odd one\" ,y,x\r\n"
+    "7,3,0.10,0.3,0.2,1,\"2.50\",2,1\r\n"
+    "\"8\", 6, 1.10,1.3,1.2,-1,nan,5,4\n";
+
+TEST(Xyz, CsvHasColumnsByNameInAnyOrder) {
+  Shape shape = read_text(read_csv, odd_csv);
+  expect_sound(shape, "csv");
+  EXPECT_EQ(describe(shape),
+            "velocity:velocity:float32:3 id:id:float32:1 my speed:scalar:float32:1 an, odd one:scalar:float32:1 ");
+  EXPECT_EQ(shape.positions[1] + shape.origin, Vec3(4, 5, 6));
+  EXPECT_EQ(shape.find("velocity")->number(1, 2), 1.3F);
+  EXPECT_EQ(shape.find("id")->number(1, 0), 8);
+  EXPECT_EQ(write_text(write_csv, shape), odd_csv);
+  shape.find("an, odd one")->set_number(0, 0, 3);
+  shape.find("velocity")->set_number(1, 0, 9);
+  shape.find("id")->set_number(1, 0, 11);
+  std::string expected = odd_csv;
+  for (const auto& [old, now] :
+       {std::pair<std::string, std::string>{"2.50", "3"}, {"1.10", "9"}, {"\"8\"", "\"11\""}}) {
+    ASSERT_NE(expected.find(old), std::string::npos) << old;
+    expected.replace(expected.find(old), old.size(), now);
+  }
+  EXPECT_EQ(write_text(write_csv, shape), expected);
+  EXPECT_EQ(
+      meaning("\"Points:0\",\"Points:1\",\"Points:2\",\"velocity:0\",\"velocity:1\",\"velocity:2\"\n1,2,3,4,5,6\n"),
+      "velocity:velocity:float32:3 ");
+}
+
+TEST(Xyz, NamesThatAreNotAsManyAsTheColumnsAreRefused) {
+  EXPECT_EQ(refusal(read_csv, "x,y,z,a b\n1,2,3\n"), "test:1: expected a name for each of the 3 columns, found 4");
+  EXPECT_EQ(refusal(read_csv, "x,y,z\n1,2,3,4\n"), "test:1: expected a name for each of the 4 columns, found 3");
+  EXPECT_EQ(refusal(read_csv, "x,y\n1,2\n"),
+            "test:1:1: expected a number, or names of columns with x, y and z, found \"x\"");
+  EXPECT_EQ(refusal(read_csv, "x,y,z\n1,,2\n"), "test:2:3: expected a number, found an empty field");
+  EXPECT_EQ(refusal(read_csv, "x,y,z\n1,\"\",2\n"), "test:2:4: expected a number, found an empty field");
+  EXPECT_EQ(refusal(read_csv, "x,y,z\n1,\"2,3\n"), "test:2:3: expected a number, found \"\"2\"");
+}
+
+TEST(Xyz, NewCsvHasCommasAndNames) {
+  Shape shape = read_text(read_xyz, "# x y z vx vy vz id a/b\n1 2 3 4 5 6 7 8\n");
+  const std::string text = "x,y,z,vx,vy,vz,id,a_b\n1,2,3,4,5,6,7,8\n";
+  EXPECT_EQ(write_text(write_csv, shape), text);
+  EXPECT_EQ(write_text(write_csv, read_text(read_csv, text)), text);
+  EXPECT_EQ(write_text(write_xyz, read_text(read_csv, text)), "//X Y Z vx vy vz id a_b\n1 2 3 4 5 6 7 8\n");
+  shape.faces.add(std::vector<Index>{0, 0, 0});
+  EXPECT_EQ(lost(write_csv, shape), std::vector<std::string>{"CSV cannot hold the 1 face."});
+}
+
 TEST(Xyz, KeepsAMillimetreFarFromTheOrigin) {
   Shape shape = read_text(read_xyz, "5400000 500000 12\n5400001 500001 13\n");
   EXPECT_EQ(shape.position_type, Type::Float64);

@@ -1,0 +1,7 @@
+#include "engine/io/bgeo.h"
+#include "tests/fuzz/fuzz_format.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  sinew::io::fuzz_format(sinew::io::read_bgeo, sinew::io::write_bgeo, {data, size});
+  return 0;
+}

@@ -1,0 +1,7 @@
+#include "engine/io/xyz.h"
+#include "tests/fuzz/fuzz_format.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  sinew::io::fuzz_format(sinew::io::read_csv, sinew::io::write_csv, {data, size});
+  return 0;
+}
