@@ -42,8 +42,10 @@ if(SINEW_EDITOR)
   endforeach()
 endif()
 
-# Programs of others that read what sinew writes. Only `ctest -C clients` knows these tests: they need what is not a
-# Debian package (scripts/check clients).
+# Programs of others that read what sinew writes. Only `ctest -C clients` knows these tests: they need large packages, or
+# what is not a Debian package (scripts/check clients).
+add_test(NAME client_blender CONFIGURATIONS clients
+         COMMAND ${CMAKE_SOURCE_DIR}/tests/clients/blender.sh $<TARGET_FILE_DIR:sinew>)
 add_test(NAME client_splat_transform CONFIGURATIONS clients
          COMMAND ${CMAKE_SOURCE_DIR}/tests/clients/splat_transform.sh $<TARGET_FILE_DIR:sinew>)
-set_tests_properties(client_splat_transform PROPERTIES LABELS client TIMEOUT 900 SKIP_RETURN_CODE 77)
+set_tests_properties(client_blender client_splat_transform PROPERTIES LABELS client TIMEOUT 900 SKIP_RETURN_CODE 77)

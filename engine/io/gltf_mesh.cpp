@@ -154,7 +154,11 @@ void GltfMesh::add_faces(const JsonView& primitive, const Block& block) {
   const std::optional<JsonView> mode = primitive.find("mode");
   const std::size_t kind = mode ? mode->count(6) : 4;
   const std::optional<JsonView> indices = primitive.find("indices");
-  const std::size_t count = indices ? document_->accessor(*indices).count : block.count;
+  const GltfDocument::Accessor accessor = indices ? document_->accessor(*indices) : GltfDocument::Accessor();
+  const int type = accessor.component_type;
+  if (indices && type != 5121 && type != 5123 && type != 5125)
+    throw indices->error("indices of a component type 5121, 5123 or 5125", std::to_string(type));
+  const std::size_t count = indices ? accessor.count : block.count;
   if (count > document_->size() - std::min(corners_, document_->size()))
     throw primitive.error("no more indices than the file has bytes, " + std::to_string(document_->size()), "more");
   if (kind == 4 && count % 3 != 0) throw primitive.error("three corners a triangle", std::to_string(count) + " in all");

@@ -74,7 +74,7 @@ struct Builder : nlohmann::json_sax<nlohmann::json> {
   bool start_array(std::size_t) override { return start(JsonNode::Type::Array); }
   bool end_array() override { return finish(); }
   bool parse_error(std::size_t at, const std::string& token, const nlohmann::detail::exception&) override {
-    problem_at = at;
+    problem_at = at > 0 ? at - 1 : 0;  // from the count of bytes that were read
     problem = token.empty() ? "the end of the text" : sinew::quoted(token);
     return false;
   }

@@ -5,7 +5,11 @@
 #include <filesystem>
 #include <fstream>
 
+#include "engine/io/byte_source.h"
 #include "engine/io/bytes.h"
+#include "engine/io/gltf.h"
+#include "engine/io/mdd.h"
+#include "engine/io/pc2.h"
 #include "engine/io/ply.h"
 #include "engine/io/scan_set.h"
 #include "engine/io/stl.h"
@@ -93,6 +97,40 @@ inline void fuzz_scan_set(std::span<const std::uint8_t> data) {
       CHECK(format_of(files[i].name).read("again", files[i].bytes, {}).size() == shape.parts[i].count, i);
   } catch (const InputError&) {
   }
+}
+
+/// A file of many frames: each of the first is a sound shape, can be written as a file of one frame, and read again
+/// with as many points. `exact`: coordinates have the same bits then.
+inline void fuzz_frames(Sequence (*open)(std::shared_ptr<const ByteSource>, const ReadOptions&), ReadFunction read,
+                        WriteFunction write, bool exact, std::span<const std::uint8_t> data) {
+  const auto bytes = std::as_bytes(data);
+  try {
+    const Sequence sequence = open(bytes_in_memory("fuzz", {bytes.begin(), bytes.end()}), {});
+    CHECK(!sequence.frames.empty() && std::is_sorted(sequence.frames.begin(), sequence.frames.end()));
+    CHECK(sequence.rate > 0 && std::isfinite(sequence.rate), sequence.rate);
+    for (std::size_t i = 0; i < std::min<std::size_t>(sequence.frames.size(), 8); ++i) {
+      const auto shape = sequence.load(sequence.frames[i]);
+      check_sound(*shape);
+      const Shape again = read_again(read, write, *shape);
+      for (std::size_t p = 0; exact && p < shape->size(); ++p)
+        for (int c = 0; c < 3; ++c)
+          CHECK(same_coordinate(again.positions[p][c] + again.origin[c], shape->origin[c], shape->positions[p][c]), p,
+                c);
+    }
+  } catch (const InputError&) {
+  }
+}
+
+inline void fuzz_pc2(std::span<const std::uint8_t> data) {
+  fuzz_frames(open_pc2, read_pc2, write_pc2, true, data);
+}
+
+inline void fuzz_mdd(std::span<const std::uint8_t> data) {
+  fuzz_frames(open_mdd, read_mdd, write_mdd, true, data);
+}
+
+inline void fuzz_gltf(std::span<const std::uint8_t> data) {
+  fuzz_frames(open_gltf, read_gltf, write_gltf, false, data);
 }
 
 }  // namespace sinew::io

@@ -239,8 +239,8 @@ TEST_P(PointCaches, TasksShareOneFile) {
     writer->commit();
   };
   run(whole, 10);
-  for (int i = 3; i >= 1; --i) {
-    options.share = Share{static_cast<std::uint64_t>(i), 3};
+  for (std::uint64_t i = 3; i >= 1; --i) {
+    options.share = Share{i, 3};
     // The second task is stopped after its first frame, and run again.
     const std::string stopped = i == 2 ? sentence_of([&] { run(path, 1); }) : "";
     if (i == 2) {
@@ -253,10 +253,10 @@ TEST_P(PointCaches, TasksShareOneFile) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
 
   options.frames.pop_back();
-  EXPECT_NE(sentence_of([&] { run(path, 10); }).find(" bytes (--force replaces it)"), std::string::npos);
+  EXPECT_NE(sentence_of([&] { run(path, 10); }).find("(--force replaces it)"), std::string::npos);
   options.force = true;
-  for (int i = 1; i <= 3; ++i) {
-    options.share = Share{static_cast<std::uint64_t>(i), 3};
+  for (std::uint64_t i = 1; i <= 3; ++i) {
+    options.share = Share{i, 3};
     run(path, 10);
   }
   options.share.reset();

@@ -47,6 +47,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Target{"ply", fuzz_ply}, Target{"stl", fuzz_stl}, Target{"conf", fuzz_scan_set},
                     Target{"obj", fuzz<read_obj, write_obj>}, Target{"off", fuzz<read_off, write_off>},
                     Target{"xyz", fuzz<read_xyz, write_xyz>}, Target{"csv", fuzz<read_csv, write_csv>},
+                    Target{"pc2", fuzz_pc2}, Target{"mdd", fuzz_mdd}, Target{"gltf", fuzz_gltf},
                     Target{"pcd", fuzz<read_pcd, write_pcd>}, Target{"vtp", fuzz_vtp},
                     Target{"bgeo", fuzz<read_bgeo, write_bgeo>}, Target{"vtk", fuzz<read_vtk, write_vtk>}));
 

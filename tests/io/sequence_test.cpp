@@ -107,7 +107,7 @@ TEST(Sequence, OutputsAreRefusedBeforeTheyBegin) {
 
 TEST(Sequence, SharesAreThePartsOfTheWhole) {
   for (const std::size_t n : {0u, 1u, 5u, 48u, 1000u})
-    for (const std::uint64_t count : {1, 2, 3, 7, 60}) {
+    for (const std::uint64_t count : {1u, 2u, 3u, 7u, 60u}) {
       std::size_t next = 0;
       for (std::uint64_t i = 1; i <= count; ++i) {
         const Share share{i, count};
@@ -119,8 +119,8 @@ TEST(Sequence, SharesAreThePartsOfTheWhole) {
     }
   const TemporaryFolder folder;
   FrameWriterOptions options = with(first_to(10));
-  for (int i = 3; i >= 1; --i) {
-    options.share = Share{static_cast<std::uint64_t>(i), 3};
+  for (std::uint64_t i = 3; i >= 1; --i) {
+    options.share = Share{i, 3};
     write_all(folder / "run.####.ply", options);
   }
   EXPECT_EQ(open_sequence(folder / "run.####.ply").frames, first_to(10));
