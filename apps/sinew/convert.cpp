@@ -1,6 +1,7 @@
 #include "apps/sinew/command.h"
 #include "apps/sinew/files.h"
 #include "apps/sinew/frames.h"
+#include "engine/io/sequence.h"
 
 namespace sinew::app {
 
@@ -15,7 +16,7 @@ int run(const Options& options) {
   check_output(options.out);
   const Sequence sequence = open_input(options.in, options.from, options.frames);
   const bool folder = options.out.path.ends_with('/');
-  if (!folder && (sequence.frames.size() > 1 || takes_frames(options.out))) {
+  if (!folder && (sequence.frames.size() > 1 || io::names_frames(options.out.path, options.out.as))) {
     write_frames(options.out, sequence);
     return Ok;
   }

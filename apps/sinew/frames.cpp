@@ -5,7 +5,6 @@
 
 #include "apps/sinew/interrupt.h"
 #include "apps/sinew/progress.h"
-#include "engine/io/frame_pattern.h"
 #include "engine/io/sequence.h"
 
 namespace sinew::app {
@@ -37,10 +36,6 @@ Sequence open_input(const std::string& path, const std::string& as, const std::s
     return shape;
   };
   return sequence;
-}
-
-bool takes_frames(const Output& output) {
-  return io::frame_pattern(output.path) || io::format_of(output.path, output.as).create_frames != nullptr;
 }
 
 void write_frames(const Output& output, const Sequence& sequence) {

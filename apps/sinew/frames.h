@@ -12,9 +12,6 @@ namespace sinew::app {
 /// empty for all. Notes of the frames go to standard error, each once.
 Sequence open_input(const std::string& path, const std::string& as, const std::string& frames);
 
-/// True where an output takes frames: a name with a place for the frame, or a format that holds many.
-bool takes_frames(const Output& output);
-
 /// Loads and writes each frame; what the format could not hold goes to standard error. Throws io::Cancelled after
 /// Ctrl-C.
 void write_frames(const Output& output, const Sequence& sequence);
