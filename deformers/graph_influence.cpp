@@ -37,6 +37,10 @@ void append_row(const NearestNodes& near, Index vertex, std::vector<double>& w, 
   to.offsets.push_back(to.maps.size());
 }
 
+std::vector<Vec3> points_of(const NearestTree& tree) {
+  return {tree.points().begin(), tree.points().end()};
+}
+
 std::string counted(std::size_t n, const std::string& rest) {
   return std::to_string(n) + (n == 1 ? " point " : " points ") + rest;
 }
@@ -190,16 +194,20 @@ SkinWeights GraphInfluence::blended(std::span<const Vec3> points) const {
 }
 
 void GraphInfluence::follow(std::vector<Vec3> nodes, const Shape& shape) {
+  if (!made_) made_ = std::make_shared<const Made>(Made{options_.cuts, points_of(nodes_), points_of(sample_)});
+  // From where all was made, not from the frame before: a frame's answer depends on that frame alone.
+  options_.cuts = made_->cuts;
+  const NearestTree carriers(made_->nodes);
   for (Cut& cut : options_.cuts)
     for (Vec3& p : cut.path) {
       Index near = 0;
       double distance = 0;
-      nodes_.nearest({&p, 1}, 1, {&near, 1}, {&distance, 1});
-      p += nodes[near] - nodes_.points()[near];
+      carriers.nearest({&p, 1}, 1, {&near, 1}, {&distance, 1});
+      p += nodes[near] - made_->nodes[near];
     }
   curtains_ = Curtains(options_.cuts);
   nodes_ = NearestTree(nodes);
-  std::vector<Vec3> points(sample_.points().begin(), sample_.points().end());
+  std::vector<Vec3> points = made_->sample;
   for (std::size_t s = 0; s < points.size(); ++s)
     if (const Vec3& p = shape.positions[sample_of_shape_[s]]; p.allFinite()) points[s] = p;
   sample_ = NearestTree(points);

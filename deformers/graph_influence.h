@@ -3,6 +3,7 @@
 /// through a cut [Sumner et al. 2007, section 3, eq. 4, and section 6].
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,7 +53,7 @@ class GraphInfluence {
   /// Weights of other points of the same space.
   SkinWeights bind(std::span<const Vec3> points, Gradients gradients) const;
 
-  /// Nodes and shape of another frame (Deformer::follow): cuts go where their nearest nodes went.
+  /// Nodes and shape of another frame (Deformer::follow): cuts go where their nearest nodes went since all was made.
   void follow(std::vector<Vec3> nodes, const Shape& shape);
 
   /// Deformer::binding: "nodes", "neighbours"; with cuts "cuts" (the path's points, 6 columns: point and depth) and
@@ -75,12 +76,19 @@ class GraphInfluence {
   void keep_sample(const Shape& shape, const SkinWeights& weights);
   SkinWeights blended(std::span<const Vec3> points) const;
 
+  /// Where all was before the first follow().
+  struct Made {
+    std::vector<Cut> cuts;
+    std::vector<Vec3> nodes, sample;
+  };
+
   InfluenceOptions options_;
   Curtains curtains_;
   NearestTree nodes_;
   NearestTree sample_;  ///< points of the shape that others are bound to; none under straight distance
   std::vector<Index> sample_of_shape_;
   SkinWeights sample_weights_;
+  std::shared_ptr<const Made> made_;
 };
 
 }  // namespace sinew

@@ -342,6 +342,21 @@ TEST(GraphInfluence, FollowsAnotherFrame) {
   const SkinWeights bound = deformer->bind(later.positions, Gradients::No);
   EXPECT_EQ(bound.maps, before.maps);
   EXPECT_EQ(bound.weights, before.weights);
+  // The way there leaves no trace.
+  const auto straight = deformer_of(shape, options_of(true, {between_sheets()}));
+  Shape between = later;
+  for (Vec3& p : between.positions) p = Vec3(0.3 * p.z(), 1.7 * p.x(), p.y() / 3);
+  deformer->follow(std::make_shared<Shape>(between));
+  deformer->follow(std::make_shared<Shape>(later));
+  straight->follow(std::make_shared<Shape>(later));
+  const auto cuts = [](const Deformer& d) {
+    for (const Deformer::Table& table : d.binding())
+      if (table.name == "cuts") return table.values;
+    return std::vector<double>{};
+  };
+  const std::vector<double> a = cuts(*deformer), b = cuts(*straight);
+  EXPECT_FALSE(a.empty());
+  EXPECT_EQ(a, b);
 }
 
 TEST(GraphInfluence, WhereItFollowsToDoesNotDependOnTheWay) {

@@ -142,8 +142,8 @@ TEST_P(RealSoups, AreBentAndNothingElseDiffers) {
   const std::vector<Layer> layers = {lean(*before, distance)};
   const Evaluation bent = evaluate(before, layers, methods());
   EXPECT_EQ(bent.reports.at(0).solve.status, Status::Converged) << bent.reports[0].solve.message;
-  // Boxes of a few points and random triangles, all held or pulled, give way.
-  EXPECT_LT(bent.reports[0].handle_max, 0.15);
+  // A box of 26 points, all held or pulled, gives way, and a hundred triangles at random more.
+  EXPECT_LT(bent.reports[0].handle_max, name == "soup.stl" ? 0.2 : 0.07);
 
   const TemporaryFolder folder;
   const fs::path out = folder.path() / ("bent" + path.extension().string());
