@@ -25,18 +25,19 @@ bool factorize(const GaussNewtonModel& model, KeptFactor& kept, const Vector& g)
     for (int c = 0; c < kept.H.block; ++c) mean += kept.H.at(kept.H.offsets[j])[c * (kept.H.block + 1)];
   mean /= static_cast<double>(n);
 
-  Vector x(g.size()), y(g.size());
+  const Vector b = g.head(static_cast<Eigen::Index>(n));  // of the unknowns that the factor has
+  Vector x(b.size()), y(b.size());
   for (double share = 1e-9; share < 1; share *= 1000) {
     std::vector<double> damping(n);
     for (std::size_t i = 0; i < n; ++i) damping[i] = share * mean * model.held[i % model.held.size()];
     kept.usable = kept.cholesky.factorize(kept.H, damping);
     if (!kept.usable) continue;
-    x = g;
+    x = b;
     kept.cholesky.solve(span_of(x));
     if (!x.allFinite()) continue;
     multiply(kept.H, span_of(x), span_of(y));
     y += Eigen::Map<const Vector>(damping.data(), y.size()).cwiseProduct(x);
-    if ((y - g).norm() <= 1e-6 * g.norm()) return true;
+    if ((y - b).norm() <= 1e-6 * b.norm()) return true;
   }
   kept.usable = false;
   return false;
@@ -57,20 +58,21 @@ class Curvature {
   }
 
   /// step <- -(approximate Hessian)^-1 g.
-  void solve(const SparseCholesky& cholesky, const Vector& g, Vector& step) const {
+  template <class Solve>
+  void solve(const Solve& inverse, const Vector& g, Vector& step) const {
     step = -g;
     std::vector<double> a(pairs_.size());
     for (std::size_t i = pairs_.size(); i-- > 0;) {
       a[i] = pairs_[i].rho * pairs_[i].s.dot(step);
       step -= a[i] * pairs_[i].y;
     }
-    cholesky.solve(span_of(step));
+    inverse(span_of(step));
     for (std::size_t i = 0; i < pairs_.size(); ++i)
       step += (a[i] - pairs_[i].rho * pairs_[i].y.dot(step)) * pairs_[i].s;
   }
 
  private:
-  static constexpr std::size_t memory = 5;
+  static constexpr std::size_t memory = 6;
   struct Pair {
     Vector s, y;
     double rho;
@@ -108,7 +110,11 @@ bool converged(const GaussNewtonOptions& options, double F, double decrease, con
 
 GaussNewtonResult gauss_newton(const GaussNewtonModel& model, KeptFactor& kept, const GaussNewtonOptions& options) {
   GaussNewtonResult result;
-  const auto n = static_cast<Eigen::Index>(kept.H.size()) * kept.H.block;
+  const auto of_factor = static_cast<Eigen::Index>(kept.H.size()) * kept.H.block;
+  const auto n = model.unknowns > 0 ? static_cast<Eigen::Index>(model.unknowns) : of_factor;
+  const auto inverse = [&](std::span<double> x) {
+    model.precondition ? model.precondition(kept.cholesky, x) : kept.cholesky.solve(x);
+  };
   double F = model.energy();
   result.energy = F;
   if (n == 0) return result;
@@ -139,7 +145,7 @@ GaussNewtonResult gauss_newton(const GaussNewtonModel& model, KeptFactor& kept, 
       renew = false;
       steps_with_factor = 0;
     }
-    curvature.solve(kept.cholesky, g, step);
+    curvature.solve(inverse, g, step);
 
     const Trial trial = line_search(model, step, F, fresh);
     if (!std::isfinite(trial.F)) {

@@ -24,6 +24,10 @@ struct GaussNewtonModel {
   /// How strongly each unknown of a block is held where nothing else determines it (`block` numbers, about 1): a free
   /// part moves along those that are held least.
   std::vector<double> held;
+  /// How many unknowns there are, where the kept factor has fewer: it is then of the first ones. 0: as many.
+  std::size_t unknowns = 0;
+  /// x <- M^-1 x, M near J'J, with the help of the kept factor. Empty: x <- factor^-1 x.
+  std::function<void(const SparseCholesky&, std::span<double>)> precondition;
 };
 
 /// A matrix with its factor and the damping that it needed; kept between solves of the same pattern.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 
 #include "deformers/graph_influence.h"
 #include "deformers/graph_nodes.h"
@@ -109,7 +110,8 @@ class GraphDeformer final : public Deformer {
       CHECK(handle.points.size() == handle.targets.size(), handle.points.size(), handle.targets.size());
       for (std::size_t i = 0; i < handle.points.size(); ++i) {
         // A point that is not finite follows nothing and can hold nothing.
-        if (row_empty(handle.points[i]) || !handle.targets[i].allFinite()) continue;
+        const Index point = handle.points[i];
+        if (row_empty(point) || !rest_->positions[point].allFinite() || !handle.targets[i].allFinite()) continue;
         handle_points.push_back(handle.points[i]);
         targets.push_back(unit_.apply(handle.targets[i]));
       }

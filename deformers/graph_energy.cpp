@@ -44,16 +44,11 @@ Mat3 rotation_of(const Vec3& w) {
       .toRotationMatrix();
 }
 
-void GraphEnergy::add_row(std::initializer_list<Entry> entries) {
-  for (const Entry& e : entries)
-    if (unknown_of_[e.node] != none) entries_.push_back(e);
-  row_offsets_.push_back(entries_.size());
-}
-
 void GraphEnergy::build(std::span<const Vec3> nodes, std::span<const std::pair<Index, Index>> edges,
                         const std::vector<bool>& free, std::span<const GraphHandle> handles,
                         const GraphWeights& weights) {
   weights_ = weights;
+  sqrt_reg_ = std::sqrt(weights.regularization);
   free_nodes_.clear();
   unknown_of_.assign(nodes.size(), none);
   for (Index j = 0; j < nodes.size(); ++j)
@@ -64,40 +59,32 @@ void GraphEnergy::build(std::span<const Vec3> nodes, std::span<const std::pair<I
 
   row_offsets_.assign(1, 0);
   entries_.clear();
-  const double reg = std::sqrt(weights.regularization), con = std::sqrt(weights.constraint);
-  const auto add_edge = [&](Index j, Index k) {
-    const Vec3 d = reg * (nodes[k] - nodes[j]);
-    add_row({{j, {d.x(), d.y(), d.z(), reg}}, {k, {0, 0, 0, -reg}}});
-    if (weights.around == 0) return;
-    const double length = (nodes[k] - nodes[j]).norm(), share = std::sqrt(weights.around);
-    for (int c = 0; c < 6; ++c) {
-      const Vec3 l = (c < 3 ? 1 : -1) * length * Vec3::Unit(c % 3);
-      const Vec3 a = share * (d + reg * l), b = -share * reg * l;
-      add_row({{j, {a.x(), a.y(), a.z(), share * reg}}, {k, {b.x(), b.y(), b.z(), -share * reg}}});
-    }
+  directed_.clear();
+  const auto add_entry = [&](Index j) {
+    if (free[j]) entries_.push_back({j, Vec4::Zero()});
   };
-  for (const auto& [j, k] : edges) {
-    if (!free[j] && !free[k]) continue;  // both rest: the row is zero
-    add_edge(j, k);
-    add_edge(k, j);
+  for (const auto& edge : edges) {
+    if (!free[edge.first] && !free[edge.second]) continue;  // both rest: the row is zero
+    for (const auto& [j, k] : {edge, std::pair(edge.second, edge.first)}) {
+      directed_.emplace_back(j, k);
+      for (int row = 0; row < (weights.around > 0 ? 7 : 1); ++row) {
+        add_entry(j);
+        add_entry(k);
+        row_offsets_.push_back(entries_.size());
+      }
+    }
   }
   regularization_rows_ = row_offsets_.size() - 1;
-
-  handle_points_.clear();
+  edge_rows_ = weights.around > 0 ? 0 : regularization_rows_;
   for (const GraphHandle& handle : handles) {
-    for (std::size_t i = 0; i < handle.nodes.size(); ++i) {
-      const Index j = handle.nodes[i];
-      if (unknown_of_[j] == none) continue;
-      const Vec3 d = con * handle.weights[i] * (handle.v - nodes[j]);
-      entries_.push_back({j, {d.x(), d.y(), d.z(), con * handle.weights[i]}});
-    }
+    for (const Index j : handle.nodes) add_entry(j);
     row_offsets_.push_back(entries_.size());
-    handle_points_.push_back(handle.v);
   }
-  rhs_.assign(handles.size(), Vec4::Zero());
   build_A();
+  move(nodes, handles);
 }
 
+/// The pattern of A, and the place in it of each product.
 void GraphEnergy::build_A() {
   std::vector<std::pair<Index, Index>> pairs;
   for (std::size_t row = 0; row + 1 < row_offsets_.size(); ++row)
@@ -106,6 +93,7 @@ void GraphEnergy::build_A() {
         pairs.emplace_back(unknown_of_[entries_[a].node], unknown_of_[entries_[b].node]);
   A_ = block_pattern(4, static_cast<Index>(free_nodes_.size()), pairs);
 
+  places_.clear();
   for (std::size_t row = 0; row + 1 < row_offsets_.size(); ++row)
     for (std::size_t a = row_offsets_[row]; a < row_offsets_[row + 1]; ++a)
       for (std::size_t b = row_offsets_[row]; b < row_offsets_[row + 1]; ++b) {
@@ -113,9 +101,48 @@ void GraphEnergy::build_A() {
         if (i < j) continue;
         const auto first = A_.rows.begin() + static_cast<std::ptrdiff_t>(A_.offsets[j]);
         const auto last = A_.rows.begin() + static_cast<std::ptrdiff_t>(A_.offsets[j + 1]);
-        const auto e = static_cast<std::size_t>(std::lower_bound(first, last, i) - A_.rows.begin());
-        Eigen::Map<Eigen::Matrix4d>(A_.at(e)) += entries_[a].coefficients * entries_[b].coefficients.transpose();
+        places_.push_back(static_cast<Index>(std::lower_bound(first, last, i) - A_.rows.begin()));
       }
+}
+
+void GraphEnergy::move(std::span<const Vec3> nodes, std::span<const GraphHandle> handles) {
+  CHECK(nodes.size() == unknown_of_.size() && regularization_rows_ + handles.size() + 1 == row_offsets_.size(),
+        nodes.size(), handles.size());
+  const double reg = sqrt_reg_, con = std::sqrt(weights_.constraint);
+  auto entry = entries_.begin();
+  const auto put = [&](Index j, const Vec3& beta, double b) {
+    if (unknown_of_[j] != none) (entry++)->coefficients << beta, b;
+  };
+  for (const auto& [j, k] : directed_) {
+    const Vec3 d = reg * (nodes[k] - nodes[j]);
+    put(j, d, reg);
+    put(k, Vec3::Zero(), -reg);
+    if (weights_.around == 0) continue;
+    const double length = (nodes[k] - nodes[j]).norm(), share = std::sqrt(weights_.around);
+    for (int c = 0; c < 6; ++c) {
+      const Vec3 l = (c < 3 ? 1 : -1) * length * Vec3::Unit(c % 3);
+      put(j, share * (d + reg * l), share * reg);
+      put(k, -share * reg * l, -share * reg);
+    }
+  }
+  handle_points_.clear();
+  for (const GraphHandle& handle : handles) {
+    for (std::size_t i = 0; i < handle.nodes.size(); ++i) {
+      const double w = con * handle.weights[i];
+      put(handle.nodes[i], w * (handle.v - nodes[handle.nodes[i]]), w);
+    }
+    handle_points_.push_back(handle.v);
+  }
+  CHECK(entry == entries_.end());
+  rhs_.assign(handles.size(), Vec4::Zero());
+
+  std::fill(A_.values.begin(), A_.values.end(), 0.0);
+  auto place = places_.begin();
+  for (std::size_t row = 0; row + 1 < row_offsets_.size(); ++row)
+    for (std::size_t a = row_offsets_[row]; a < row_offsets_[row + 1]; ++a)
+      for (std::size_t b = row_offsets_[row]; b < row_offsets_[row + 1]; ++b)
+        if (unknown_of_[entries_[a].node] >= unknown_of_[entries_[b].node])
+          Eigen::Map<Mat4>(A_.at(*place++)) += entries_[a].coefficients * entries_[b].coefficients.transpose();
 }
 
 void GraphEnergy::set_targets(std::span<const Vec3> targets) {
@@ -134,12 +161,19 @@ std::vector<GraphEnergy::Mat4> GraphEnergy::displacements(const GraphState& x) {
 }
 
 GraphEnergy::Vec4 GraphEnergy::residual(const std::vector<Mat4>& D, std::size_t row) const {
-  Vec4 r = row < regularization_rows_ ? Vec4(Vec4::Zero()) : Vec4(-rhs_[row - regularization_rows_]);
-  for (std::size_t e = row_offsets_[row]; e < row_offsets_[row + 1]; ++e) {
-    const Mat4& d = D[entries_[e].node];
-    const Vec4& c = entries_[e].coefficients;
-    r += c[0] * d.col(0) + c[1] * d.col(1) + c[2] * d.col(2) + c[3] * d.col(3);
+  const auto times = [](const Mat4& d, const Vec4& c) -> Vec4 {
+    return (c[0] * d.col(0) + c[1] * d.col(1)) + (c[2] * d.col(2) + c[3] * d.col(3));
+  };
+  if (row < edge_rows_) {
+    const auto [j, k] = directed_[row];
+    Vec4 r = Vec4::Zero();
+    if (unknown_of_[k] != none) r = -sqrt_reg_ * D[k].col(3);
+    if (unknown_of_[j] != none) r += times(D[j], entries_[row_offsets_[row]].coefficients);
+    return r;
   }
+  Vec4 r = row < regularization_rows_ ? Vec4(Vec4::Zero()) : Vec4(-rhs_[row - regularization_rows_]);
+  for (std::size_t e = row_offsets_[row]; e < row_offsets_[row + 1]; ++e)
+    r += times(D[entries_[e].node], entries_[e].coefficients);
   return r;
 }
 
@@ -176,7 +210,13 @@ std::vector<double> GraphEnergy::node_energy(const GraphState& x) const {
 std::vector<GraphEnergy::Mat4> GraphEnergy::linear_gradient(const GraphState& x) const {
   const std::vector<Mat4> D = displacements(x);
   std::vector<Mat4> G(free_nodes_.size(), Mat4::Zero());
-  for (std::size_t row = 0; row + 1 < row_offsets_.size(); ++row) {
+  for (std::size_t row = 0; row < edge_rows_; ++row) {
+    const Vec4 r = residual(D, row);
+    const Index j = unknown_of_[directed_[row].first], k = unknown_of_[directed_[row].second];
+    if (j != none) G[j] += r * entries_[row_offsets_[row]].coefficients.transpose();
+    if (k != none) G[k].col(3) -= sqrt_reg_ * r;
+  }
+  for (std::size_t row = edge_rows_; row + 1 < row_offsets_.size(); ++row) {
     const Vec4 r = residual(D, row);
     for (std::size_t e = row_offsets_[row]; e < row_offsets_[row + 1]; ++e)
       G[unknown_of_[entries_[e].node]] += r * entries_[e].coefficients.transpose();
@@ -220,11 +260,15 @@ BlockMatrix GraphEnergy::hessian_pattern(int block) const {
 /// With J_i = R_i [-[beta_i]x, b_i] and Q = R_i' R_j, using Q [a]x = [Q a]x Q and [a]x [c]x = c a' - (a.c) I:
 ///   J_i' J_j = [ (tr(N) I - N') Q    [m]x Q ]      M = sum beta_i beta_j', m = sum beta_i b_j, N = M Q',
 ///              [ -Q [m*]x            a Q    ]      m* = sum b_i beta_j, a = sum b_i b_j, all of them entries of A.
-void GraphEnergy::hessian_rigid(const GraphState& x, BlockMatrix& H) const {
+void GraphEnergy::hessian_rigid(const GraphState& x, BlockMatrix& H, std::span<const Mat3> U) const {
   for (Index j = 0; j < A_.size(); ++j)
     for (Index e = A_.offsets[j]; e < A_.offsets[j + 1]; ++e) {
       const Mat3 Q = x.R[free_nodes_[A_.rows[e]]].transpose() * x.R[free_nodes_[j]];
-      const Eigen::Map<const Eigen::Matrix4d> a(A_.at(e));
+      Mat4 a = Eigen::Map<const Mat4>(A_.at(e));
+      if (!U.empty()) {
+        a.topRows<3>() = U[A_.rows[e]] * a.topRows<3>().eval();
+        a.leftCols<3>() = a.leftCols<3>().eval() * U[j];
+      }
       const Mat3 N = a.topLeftCorner<3, 3>() * Q.transpose();
       Eigen::Map<Eigen::Matrix<double, 6, 6>> h(H.at(e));
       h.topLeftCorner<3, 3>() = (N.trace() * Mat3::Identity() - N.transpose()) * Q;

@@ -60,6 +60,9 @@ class GraphEnergy {
   void build(std::span<const Vec3> nodes, std::span<const std::pair<Index, Index>> edges, const std::vector<bool>& free,
              std::span<const GraphHandle> handles, const GraphWeights& weights);
 
+  /// The same nodes and handle points elsewhere: what build() was told otherwise stays. Targets must be set anew.
+  void move(std::span<const Vec3> nodes, std::span<const GraphHandle> handles);
+
   /// Where the handle points are to be: q_l, in the order of the handles.
   void set_targets(std::span<const Vec3> targets);
 
@@ -82,9 +85,19 @@ class GraphEnergy {
   void gradient_rigid(const GraphState& x, std::span<double> out) const;
   void gradient_affine(const GraphState& x, const std::vector<Mat3>& Q, std::span<double> out) const;
 
+  /// A vector of three padded to four, and [R - I | t] with a row of zeros: whole registers.
+  using Vec4 = Eigen::Vector4d;
+  using Mat4 = Eigen::Matrix4d;
+  /// sum_rows r [beta, b]' of each free node, for both linear terms: half their gradient by [R_j | t_j].
+  std::vector<Mat4> linear_gradient(const GraphState& x) const;
+  /// The block of A that belongs to the i-th free node.
+  Eigen::Map<const Mat4> A_of(std::size_t i) const { return Eigen::Map<const Mat4>(A_.at(A_.offsets[i])); }
+  const GraphWeights& weights() const { return weights_; }
+
   /// J'J in the frames Q. Pattern: hessian_pattern(6 or 12).
   BlockMatrix hessian_pattern(int block) const;
-  void hessian_rigid(const GraphState& x, BlockMatrix& H) const;
+  /// For rigid steps at R_j = Q_j U_j (graph_polar.h), U_j beside x.R = Q_j of the free nodes; empty: the identity.
+  void hessian_rigid(const GraphState& x, BlockMatrix& H, std::span<const Mat3> U = {}) const;
   void hessian_affine(const GraphState& x, const std::vector<Mat3>& Q, BlockMatrix& H) const;
 
   /// x + scale * step.
@@ -96,20 +109,14 @@ class GraphEnergy {
   std::pair<double, double> handle_error(const GraphState& x) const;
 
  private:
-  /// A vector of three padded to four, and [R - I | t] with a row of zeros: whole registers.
-  using Vec4 = Eigen::Vector4d;
-  using Mat4 = Eigen::Matrix4d;
   /// One node of a row: node (all m) and [beta, b], times the square root of the term's weight.
   struct Entry {
     Index node;
     Vec4 coefficients;
   };
 
-  void add_row(std::initializer_list<Entry> entries);
   void build_A();
   static std::vector<Mat4> displacements(const GraphState& x);
-  /// sum_rows r [beta, b] of each free node, for both linear terms.
-  std::vector<Mat4> linear_gradient(const GraphState& x) const;
   Vec4 residual(const std::vector<Mat4>& D, std::size_t row) const;
 
   GraphWeights weights_;
@@ -117,9 +124,13 @@ class GraphEnergy {
   std::vector<Index> unknown_of_;         ///< of each node, or none
   std::vector<std::size_t> row_offsets_;  ///< rows of eq. 7, then of eq. 8
   std::vector<Entry> entries_;
-  std::vector<Vec3> handle_points_;  ///< v_l
-  std::vector<Vec4> rhs_;            ///< sqrt(w_con) (q_l - v_l)
+  std::vector<std::pair<Index, Index>> directed_;  ///< (j, k) of each row of eq. 7, without those around
+  std::vector<Index> places_;                      ///< block of A that each product of two entries of a row goes to
+  std::vector<Vec3> handle_points_;                ///< v_l
+  std::vector<Vec4> rhs_;                          ///< sqrt(w_con) (q_l - v_l)
   std::size_t regularization_rows_ = 0;
+  std::size_t edge_rows_ = 0;  ///< rows of eq. 7 that have t_k alone of node k: all, but for those around
+  double sqrt_reg_ = 0;
   BlockMatrix A_;
 };
 

@@ -15,6 +15,9 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// One handle alone carries its part along rather than turning it.
+const std::vector<double> rigid_held = {1, 1, 1, 1e-3, 1e-3, 1e-3};
+
 }  // namespace
 
 GraphSolver::GraphSolver(std::vector<Vec3> nodes, std::vector<std::pair<Index, Index>> edges, GraphWeights weights,
@@ -23,6 +26,7 @@ GraphSolver::GraphSolver(std::vector<Vec3> nodes, std::vector<std::pair<Index, I
       edges_(std::move(edges)),
       weights_(weights),
       plain_(plain),
+      start_nodes_(nodes_),
       x_(GraphState::rest(nodes_.size())) {
   prepare(std::vector<bool>(nodes_.size(), false), {});
 }
@@ -47,28 +51,44 @@ std::vector<bool> GraphSolver::moving_nodes(const std::vector<bool>& fixed) cons
   return moving;
 }
 
+bool GraphSolver::same_pattern(const std::vector<bool>& fixed, const std::vector<GraphHandle>& handles) const {
+  return fixed == fixed_ && std::equal(handles.begin(), handles.end(), handles_.begin(), handles_.end(),
+                                       [](const GraphHandle& a, const GraphHandle& b) { return a.nodes == b.nodes; });
+}
+
 void GraphSolver::prepare(const std::vector<bool>& fixed, std::vector<GraphHandle> handles) {
   CHECK(fixed.size() == nodes_.size(), fixed.size(), nodes_.size());
+  const bool same = same_pattern(fixed, handles);
   handles_ = std::move(handles);
-  free_ = moving_nodes(fixed);
-  resting_ = 0;
-  for (Index j = 0; j < nodes_.size(); ++j) resting_ += !free_[j] && !fixed[j];
-  energy_.build(nodes_, edges_, free_, handles_, weights_);
-  rigid_ = {energy_.hessian_pattern(6), {}, false};
-  rigid_.cholesky.analyse(rigid_.H);
-  affine_ = {};
-  affine_ready_ = false;
+  if (same) {
+    energy_.move(nodes_, handles_);
+    rigid_.usable = affine_.usable = false;
+  } else {
+    fixed_ = fixed;
+    free_ = moving_nodes(fixed);
+    resting_ = 0;
+    for (Index j = 0; j < nodes_.size(); ++j) resting_ += !free_[j] && !fixed[j];
+    energy_.build(nodes_, edges_, free_, handles_, weights_);
+    rigid_ = {energy_.hessian_pattern(6), {}, false};
+    rigid_.cholesky.analyse(rigid_.H);
+    affine_ = {};
+    affine_ready_ = false;
+  }
   rest_what_is_held();
 }
 
 void GraphSolver::move_nodes(std::vector<Vec3> nodes) {
   CHECK(nodes.size() == nodes_.size(), nodes.size(), nodes_.size());
   nodes_ = std::move(nodes);
+  moved_ = true;
 }
 
 void GraphSolver::set_x(GraphState x) {
   CHECK(x.R.size() == nodes_.size() && x.t.size() == nodes_.size(), x.R.size(), nodes_.size());
   x_ = std::move(x);
+  start_nodes_ = nodes_;
+  started_ = true;
+  moved_ = false;
   rigid_.usable = affine_.usable = false;  // factors of another x steer the way to the minimum, and its last digits
 }
 
@@ -91,8 +111,25 @@ GaussNewtonResult GraphSolver::minimise_rigid(const GaussNewtonOptions& options)
   model.try_step = [&](std::span<const double> step, double scale) { trial = energy_.step_rigid(x_, step, scale); };
   model.trial_energy = [&] { return energy_.energy(trial, true).total(); };
   model.accept = [&] { std::swap(x_, trial); };
-  model.held = {1, 1, 1, 1e-3, 1e-3, 1e-3};  // one handle alone carries its part along rather than turning it
+  model.held = rigid_held;
   return gauss_newton(model, rigid_, options);
+}
+
+/// The 12 unknowns a node. Where w_rot is small, the factor of 6 steers badly.
+GaussNewtonResult GraphSolver::minimise_to_the_end(GaussNewtonOptions options) {
+  options.relative_decrease = 1e-8;  // the minimum to 1e-6 of the energy, also where the energy is small
+  if (plain_) return minimise_affine(options);
+  constexpr int enough = 40;
+  const int wanted = options.max_iterations;
+  options.max_iterations = std::min(wanted, enough);
+  GaussNewtonResult result = minimise_polar(energy_, x_, rigid_, options);
+  if (result.iterations == wanted || result.status == Status::Converged || result.status == Status::Stopped)
+    return result;
+  options.max_iterations = wanted - result.iterations;
+  const int before = result.iterations;
+  result = minimise_affine(options);
+  result.iterations += before;
+  return result;
 }
 
 GaussNewtonResult GraphSolver::minimise_affine(const GaussNewtonOptions& options) {
@@ -116,24 +153,40 @@ GaussNewtonResult GraphSolver::minimise_affine(const GaussNewtonOptions& options
   return gauss_newton(model, affine_, options);
 }
 
+/// R_j, that was set before the nodes moved, to the same map of the surroundings of j as they are turned now.
+void GraphSolver::turn_x() {
+  const std::vector<Mat3> turns = turns_between(start_nodes_, nodes_, edges_, energy_.free_nodes());
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    Mat3& R = x_.R[energy_.free_nodes()[i]];
+    R = turns[i] * R * turns[i].transpose();
+  }
+}
+
 SolveReport GraphSolver::solve(std::span<const Vec3> targets, const SolveOptions& options,
                                const std::function<bool()>& on_iteration) {
   const auto start = std::chrono::steady_clock::now();
   const bool final_answer = options.quality == SolveOptions::Quality::Final;
   energy_.set_targets(targets);
   rest_what_is_held();
-  GaussNewtonOptions plan{options.max_iterations, options.epsilon, 0, !plain_, on_iteration};
+  GaussNewtonOptions plan;
+  plan.max_iterations = options.max_iterations;
+  plan.epsilon = options.epsilon;
+  plan.keep_factor = !plain_;
+  plan.on_iteration = on_iteration;
+  // Another frame of the animation starts from its key, turned with its parts: near enough for the last phase.
+  const bool next_frame = started_ && moved_ && final_answer && !plain_;
+  if (next_frame) turn_x();
+  started_ = moved_ = false;
   GaussNewtonResult result;
   SolveReport report;
-  if (!plain_) {
+  if (!plain_ && !next_frame) {
     result = minimise_rigid(plan);
     report.iterations = result.iterations;
   }
   const bool go_on = result.status == Status::Converged || result.status == Status::Stalled;
   if (plain_ || (final_answer && go_on && result.iterations < options.max_iterations)) {
     plan.max_iterations -= report.iterations;
-    plan.relative_decrease = 1e-8;  // the minimum to 1e-6 of the energy, also where the energy is small
-    result = minimise_affine(plan);
+    result = minimise_to_the_end(plan);
     report.iterations += result.iterations;
   }
   report.status = result.status;

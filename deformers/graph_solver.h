@@ -1,11 +1,16 @@
 #pragma once
 /// Solves a deformation graph for changing handles: what depends on which points are fixed or handles is prepared when
 /// the sets change, what depends on the targets alone is cheap. Works in normalised coordinates.
+///
+/// Nodes may move from frame to frame (mesh animations): ordering and symbolic analysis then stay. A factor does not:
+/// bent joints bend the softest motions with them, and an earlier frame's factor, even turned with each node, takes
+/// three times the steps.
 
 #include <vector>
 
 #include "deformers/gauss_newton.h"
 #include "deformers/graph_energy.h"
+#include "deformers/graph_polar.h"
 
 namespace sinew {
 
@@ -35,20 +40,25 @@ class GraphSolver {
 
  private:
   std::vector<bool> moving_nodes(const std::vector<bool>& fixed) const;
+  bool same_pattern(const std::vector<bool>& fixed, const std::vector<GraphHandle>& handles) const;
   void rest_what_is_held();
+  void turn_x();
   GaussNewtonResult minimise_rigid(const GaussNewtonOptions& options);
+  GaussNewtonResult minimise_to_the_end(GaussNewtonOptions options);
   GaussNewtonResult minimise_affine(const GaussNewtonOptions& options);
 
   std::vector<Vec3> nodes_;
   std::vector<std::pair<Index, Index>> edges_;
   GraphWeights weights_;
   bool plain_;
-  std::vector<bool> free_;
+  std::vector<bool> free_, fixed_;
   std::vector<GraphHandle> handles_;
   GraphEnergy energy_;
   KeptFactor rigid_, affine_;
-  bool affine_ready_ = false;  ///< the 12-unknown pattern is analysed: only when it is needed
-  std::size_t resting_ = 0;    ///< nodes in components without a constraint
+  std::vector<Vec3> start_nodes_;        ///< when x was set
+  bool started_ = true, moved_ = false;  ///< x was set since the last solve, and the nodes moved since then
+  bool affine_ready_ = false;            ///< the 12-unknown pattern is analysed: only when it is needed
+  std::size_t resting_ = 0;              ///< nodes in components without a constraint
   GraphState x_;
 };
 

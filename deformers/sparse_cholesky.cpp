@@ -206,31 +206,29 @@ void SparseCholesky::solve(std::span<double> x) const {
   for (std::size_t i = 0; i < order_.size(); ++i)
     std::copy_n(x.data() + order_[i] * block_, block_, x_.data() + i * block_);
 
+  using Panel = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+  const auto panel_of = [&](const Supernode& s) {
+    return Panel(panels_.data() + s.panel, static_cast<Eigen::Index>(s.rows.size()) * b, s.width * b,
+                 Eigen::OuterStride<>(static_cast<Eigen::Index>(s.stride)));
+  };
   for (const Supernode& s : supernodes_) {  // L y = P x
-    const std::size_t rows = s.rows.size() * block_, columns = s.width * block_;
-    double* own = x_.data() + s.first * block_;
-    std::fill_n(work_.data(), rows, 0.0);
-    for (std::size_t c = 0; c < columns; ++c) {
-      const double* column = panels_.data() + s.panel + c * s.stride;
-      own[c] = (own[c] + work_[c]) / column[c];
-      const auto length = static_cast<Eigen::Index>(rows - c - 1);
-      Vector(work_.data() + c + 1, length) -= own[c] * ConstVector(column + c + 1, length);
-    }
+    const Panel L = panel_of(s);
+    const Eigen::Index columns = L.cols(), below = L.rows() - columns;
+    Vector own(x_.data() + s.first * block_, columns), update(work_.data(), below);
+    L.topRows(columns).triangularView<Eigen::Lower>().solveInPlace(own);
+    update.noalias() = L.bottomRows(below) * own;
     for (std::size_t r = s.width; r < s.rows.size(); ++r)
-      Vector(x_.data() + s.rows[r] * block_, b) += Vector(work_.data() + r * block_, b);
+      Vector(x_.data() + s.rows[r] * block_, b) -= Vector(work_.data() + (r - s.width) * block_, b);
   }
   for (std::size_t i = supernodes_.size(); i-- > 0;) {  // L' z = y
     const Supernode& s = supernodes_[i];
-    const std::size_t rows = s.rows.size() * block_, columns = s.width * block_;
-    for (std::size_t r = 0; r < s.rows.size(); ++r)
-      std::copy_n(x_.data() + s.rows[r] * block_, block_, work_.data() + r * block_);
-    for (std::size_t c = columns; c-- > 0;) {
-      const double* column = panels_.data() + s.panel + c * s.stride;
-      const auto length = static_cast<Eigen::Index>(rows - c - 1);
-      work_[c] =
-          (work_[c] - ConstVector(column + c + 1, length).dot(ConstVector(work_.data() + c + 1, length))) / column[c];
-    }
-    std::copy_n(work_.data(), columns, x_.data() + s.first * block_);
+    const Panel L = panel_of(s);
+    const Eigen::Index columns = L.cols(), below = L.rows() - columns;
+    for (std::size_t r = s.width; r < s.rows.size(); ++r)
+      std::copy_n(x_.data() + s.rows[r] * block_, block_, work_.data() + (r - s.width) * block_);
+    Vector own(x_.data() + s.first * block_, columns);
+    own.noalias() -= L.bottomRows(below).transpose() * Vector(work_.data(), below);
+    L.topRows(columns).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
   }
   for (std::size_t i = 0; i < order_.size(); ++i)
     std::copy_n(x_.data() + i * block_, block_, x.data() + order_[i] * block_);
