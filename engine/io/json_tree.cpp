@@ -12,19 +12,15 @@ constexpr std::size_t deepest = 64;
 /// Builds the tree from the events of the parser, so that its depth is bounded.
 struct Builder : nlohmann::json_sax<nlohmann::json> {
   JsonNode root;
-  std::vector<JsonNode> open;      ///< arrays and objects around the present place
-  std::vector<std::string> names;  ///< of members whose values have not come yet
+  std::vector<JsonNode> open;  ///< arrays and objects around the present place
   std::size_t problem_at = 0;
   std::string problem;
 
   bool add(JsonNode node) {
     if (open.empty()) {
       root = std::move(node);
-    } else if (open.back().type == JsonNode::Type::Array) {
-      open.back().items.push_back(std::move(node));
     } else {
-      open.back().members.emplace_back(std::move(names.back()), std::move(node));
-      names.pop_back();
+      open.back().items.push_back(std::move(node));
     }
     return true;
   }
@@ -67,7 +63,7 @@ struct Builder : nlohmann::json_sax<nlohmann::json> {
   bool binary(binary_t&) override { return false; }
   bool start_object(std::size_t) override { return start(JsonNode::Type::Object); }
   bool key(string_t& name) override {
-    names.push_back(std::move(name));
+    open.back().names.push_back(std::move(name));
     return true;
   }
   bool end_object() override { return finish(); }
@@ -108,11 +104,12 @@ const JsonNode& JsonView::expect(JsonNode::Type type) const {
 }
 
 std::optional<JsonView> JsonView::find(const char* name) const {
-  for (const auto& [key, value] : expect(JsonNode::Type::Object).members) {
-    if (key != name) continue;
+  const JsonNode& object = expect(JsonNode::Type::Object);
+  for (std::size_t i = 0; i < object.names.size(); ++i) {
+    if (object.names[i] != name) continue;
     JsonView view = *this;
-    view.place_ += (place_.empty() ? "" : ".") + key;
-    view.node_ = &value;
+    view.place_ += (place_.empty() ? "" : ".") + object.names[i];
+    view.node_ = &object.items[i];
     return view;
   }
   return {};
@@ -125,7 +122,7 @@ JsonView JsonView::member(const char* name) const {
 }
 
 std::size_t JsonView::members() const {
-  return expect(JsonNode::Type::Object).members.size();
+  return expect(JsonNode::Type::Object).items.size();
 }
 
 std::size_t JsonView::size() const {

@@ -8,7 +8,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "engine/geometry/error.h"
@@ -20,8 +19,8 @@ struct JsonNode {
   Type type = Type::Null;
   double number = 0;  ///< of Number; 0 or 1 of Bool
   std::string text;
-  std::vector<JsonNode> items;
-  std::vector<std::pair<std::string, JsonNode>> members;
+  std::vector<JsonNode> items;     ///< of Array and Object
+  std::vector<std::string> names;  ///< of Object: one an item
 };
 
 /// Throws InputError "PATH: byte N: ...": no JSON, or nested deeper than 64.
