@@ -125,6 +125,10 @@ Layer marked(const Layer& layer, const LayerPoints& points, const PointSet& set,
   return out;
 }
 
+int base_frame(const Layer& layer, int first) {
+  return layer.frame.value_or(layer.keys.empty() ? first : layer.keys.front().frame);
+}
+
 Layer with_key(const Layer& layer, int frame, int first, std::span<const Motion> motions) {
   CHECK(motions.size() == layer.handles.size(), motions.size(), layer.handles.size());
   Layer out = layer;
@@ -141,10 +145,13 @@ Layer with_key(const Layer& layer, int frame, int first, std::span<const Motion>
     }
     place->handles = std::move(of);
   };
+  out.frame = base_frame(layer, first);
+  for (document::Key& key : out.keys)
+    for (std::size_t h = key.handles.size(); h < out.handles.size(); ++h) key.handles.push_back(out.handles[h].motion);
   if (out.keys.empty() && std::any_of(out.handles.begin(), out.handles.end(), moves)) {
     std::vector<Motion> own;
     for (const HandleEdit& handle : out.handles) own.push_back(handle.motion);
-    set(out.frame.value_or(first), std::move(own));
+    set(*out.frame, std::move(own));
   }
   set(frame, {motions.begin(), motions.end()});
   // What the keys say now would only be said twice.

@@ -41,8 +41,12 @@ LayerPoints points_of(const document::Layer& layer, document::Selector& selector
 document::Layer marked(const document::Layer& layer, const LayerPoints& points, const PointSet& set, Mark mark,
                        const document::Motion& motion = {}, std::optional<int> frame = std::nullopt);
 
+/// Layer::frame, or where the layer's structure is made while it names none.
+int base_frame(const document::Layer& layer, int first);
+
 /// The layer with a key at `frame` whose motions are these, one a handle; a key that is there is replaced. A layer
-/// whose handles have moved without keys gets one for that, too, at its own frame (`first` where it names none).
+/// whose handles have moved without keys gets one for that, too, at its own frame. It names that frame then, so that
+/// its structure and selections stay where they are.
 document::Layer with_key(const document::Layer& layer, int frame, int first, std::span<const document::Motion> motions);
 
 /// Of a handle, what a drag at `frame` changes: the motion of the key there, or the handle's own where there is none.

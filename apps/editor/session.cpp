@@ -70,6 +70,8 @@ void Session::take_answer(document::SolveAnswer answer) {
   if (!answer.error.empty()) {
     if (answer.ticket != ticket_) return;
     notify(Severity::Error, answer.error);
+    wanted_frame_ = frame_;  // a frame that can't be read is not waited for
+    playing_ = false;
     answered_ = true;
     settling_.reset();
     return;
@@ -103,6 +105,7 @@ void Session::show_answer(std::vector<document::LayerResult> layers) {
     if (layer_ > 0) handle_centres_.reset();
   }
   figures_ = figures_of(*input_, shown_, layer_, bounds_.diagonal(), sample_stride(input_->size()));
+  measured_version_ = 0;  // an answer with the pose that was measured has a report of its own
   if (!any_on(project()) && !drag_) figures_ = {};
 }
 

@@ -250,6 +250,7 @@ class Session {
   void show_frame(document::SolveAnswer answer);
   void advance();
   bool keyed() const;
+  document::Layer keyed_here() const;
   document::Motion motion_now(std::size_t handle) const;
   const document::LayerResult* shown_layer() const;
   void open_now(const std::string& path);

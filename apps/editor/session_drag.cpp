@@ -61,6 +61,13 @@ document::Motion Session::motion_now(std::size_t handle) const {
   return motion_at(now, handle, frame_);
 }
 
+/// The chosen layer with a key at the frame shown that changes nothing.
+document::Layer Session::keyed_here() const {
+  std::vector<document::Motion> motions;
+  for (std::size_t h = 0; h < layer()->handles.size(); ++h) motions.push_back(motion_now(h));
+  return with_key(*layer(), frame_, frames().front(), motions);
+}
+
 /// Means of the handles' points where the chosen layer starts from.
 const std::vector<Vec3>& Session::handle_rest_centres() {
   if (moves()) {
@@ -102,17 +109,15 @@ std::vector<HandleView> Session::handles() {
 
 bool Session::begin_drag(std::size_t handle) {
   end_drag();
+  play(false);
+  wanted_frame_ = frame_;  // what is shown is dragged, not what is on its way
   if (layer() == nullptr || handle >= layer()->handles.size() || !layer()->on) return false;
   handle_ = handle;
   Drag drag;
   drag.handle = handle;
   drag.now = project();
   drag.before = motion_now(handle);
-  if (keyed()) {
-    std::vector<document::Motion> motions;
-    for (std::size_t h = 0; h < layer()->handles.size(); ++h) motions.push_back(motion_now(h));
-    drag.now.layers[layer_] = with_key(*layer(), frame_, frames().front(), motions);
-  }
+  if (keyed()) drag.now.layers[layer_] = keyed_here();
   drag.centre = handle_rest_centres()[handle];
   drag.first_ticket = ticket_ + 1;
   drag.shown = shown_;

@@ -181,6 +181,7 @@ void Session::reset_handle(std::size_t handle) {
   cancel_drag();
   if (layer() == nullptr || handle >= layer()->handles.size()) return;
   Project project = history_.present();
+  if (keyed()) project.layers[layer_] = keyed_here();
   document::Motion& motion = motion_at(project.layers[layer_], handle, frame_);
   motion = {};
   motion.move = Vec3(0, 0, 0);

@@ -189,6 +189,7 @@ void Session::close() {
 
 void Session::save_edit(const std::string& path) {
   if (!has_input()) return;
+  play(false);
   const std::string target = path.empty() ? edit_path_ : absolute(path);
   if (target.empty()) {
     notify(Severity::Warning, "This edit has no file yet: choose a name for it.");
@@ -200,6 +201,7 @@ void Session::save_edit(const std::string& path) {
 
 void Session::export_shape(const std::string& path, bool force) {
   if (!has_input()) return;
+  play(false);
   waiting_.push_back({Waiting::What::Export, absolute(path), force});
   start_waiting();
 }

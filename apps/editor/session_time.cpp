@@ -23,6 +23,16 @@ std::size_t nearest_frame(std::span<const int> frames, int frame) {
   return index > 0 && frame - frames[index - 1] < frames[index] - frame ? index - 1 : index;
 }
 
+/// Selections that were made at the layer's frame say so, before that becomes another.
+void with_places(Layer& layer, int frame) {
+  const auto place = [&](document::Selection& selection) { selection.frame = selection.frame.value_or(frame); };
+  for (document::Selection& selection : layer.nodes) place(selection);
+  for (document::Selection& selection : layer.fixed) place(selection);
+  for (document::HandleEdit& handle : layer.handles) place(handle.points);
+  for (document::Selection& selection : layer.rigid) place(selection);
+  for (document::Stiffness& stiffness : layer.stiffness) place(stiffness.points);
+}
+
 double step_of(double rate) {
   return rate > 0 ? 1 / rate : 1.0 / 24;
 }
@@ -130,9 +140,7 @@ void Session::insert_key() {
   }
   cancel_drag();
   Project project = history_.present();
-  std::vector<document::Motion> motions;
-  for (std::size_t h = 0; h < layer()->handles.size(); ++h) motions.push_back(motion_now(h));
-  project.layers[layer_] = with_key(*layer(), frame_, frames().front(), motions);
+  project.layers[layer_] = keyed_here();
   apply(std::move(project), "Key at " + std::to_string(frame_));
 }
 
@@ -141,10 +149,14 @@ void Session::delete_key(int frame) {
   cancel_drag();
   Project project = history_.present();
   Layer& layer = project.layers[layer_];
+  const int base = base_frame(layer, frames().front());
   // The last key's motions become the handles' own: the edit stays what it was there.
   if (layer.keys.size() == 1 && layer.keys[0].frame == frame) {
     for (std::size_t h = 0; h < layer.keys[0].handles.size(); ++h) layer.handles[h].motion = layer.keys[0].handles[h];
+    with_places(layer, base);
     layer.frame = frame;
+  } else {
+    layer.frame = base;
   }
   std::erase_if(layer.keys, [&](const document::Key& key) { return key.frame == frame; });
   apply(std::move(project), "Delete key at " + std::to_string(frame));
@@ -154,6 +166,7 @@ void Session::move_key(int frame, int to) {
   if (layer() == nullptr || frame == to) return;
   cancel_drag();
   Project project = history_.present();
+  project.layers[layer_].frame = base_frame(*layer(), frames().front());
   std::vector<document::Key>& keys = project.layers[layer_].keys;
   const auto key = std::find_if(keys.begin(), keys.end(), [&](const document::Key& k) { return k.frame == frame; });
   if (key == keys.end()) return;

@@ -69,7 +69,13 @@ void show_number(Ui& ui, ImVec2 at, float width) {
   if (ImGui::IsItemHovered()) widget::tooltip("Frame");
 }
 
-void draw_ticks(ImDrawList* list, const Track& track) {
+/// Half the width of the flag at the frame shown.
+float flag_half(int frame) {
+  return 0.5F * widget::size_of(fonts().bold, std::to_string(frame)).x + px(5);
+}
+
+/// `shown`: the frame whose flag covers what is below it.
+void draw_ticks(ImDrawList* list, const Track& track, int shown) {
   const int step = tick_step(track);
   const float middle = track.bottom - px(20);
   list->AddRectFilled({track.left - px(8), track.top}, {track.right + px(8), track.bottom}, packed(theme().field),
@@ -79,6 +85,7 @@ void draw_ticks(ImDrawList* list, const Track& track) {
     list->AddLine({x, middle}, {x, middle + px(5)}, packed(theme().faint));
     const std::string text = std::to_string(frame);
     const ImVec2 size = widget::size_of(fonts().text, text);
+    if (std::abs(x - track.x(shown)) < flag_half(shown) + 0.5F * size.x + px(2)) continue;
     widget::text_at(list, fonts().text, {x - 0.5F * size.x, track.top + px(3)}, theme().faint, text);
   }
 }
@@ -130,8 +137,11 @@ void show_keys(Ui& ui, ImDrawList* list, const Track& track) {
     if (ui.moved_key == key.frame) x = track.x(ui.moved_key_to);
     const bool here = key.frame == session.wanted_frame();
     draw_key(list, {x, y}, radius, packed(here || hovered ? theme().text : theme().handle), key.interpolation);
-    if (hovered && !ImGui::IsMouseDragging(0))
+    if (hovered && !ImGui::IsMouseDragging(0)) {
+      // Above the timeline, where it covers no other key.
+      ImGui::SetNextWindowPos({x, track.top - px(12)}, ImGuiCond_Always, {0.5F, 1});
       widget::tooltip(fmt::format("Key at {}: drag to move, right click for more", key.frame));
+    }
     ImGui::PopID();
   }
   if (ui.moved_key && !ImGui::IsMouseDown(0)) {
@@ -147,7 +157,7 @@ void draw_head(ImDrawList* list, const Track& track, int frame, bool late) {
   list->AddLine({x, track.top}, {x, track.bottom}, color, px(2));
   const std::string text = std::to_string(frame);
   const ImVec2 size = widget::size_of(fonts().bold, text);
-  const float half = 0.5F * size.x + px(5);
+  const float half = flag_half(frame);
   const float middle = std::clamp(x, track.left - px(8) + half, track.right + px(8) - half);
   list->AddRectFilled({middle - half, track.top}, {middle + half, track.top + px(18)}, color, px(3));
   widget::text_at(list, fonts().bold, {middle - 0.5F * size.x, track.top + 0.5F * (px(18) - size.y)}, theme().on_accent,
@@ -191,8 +201,8 @@ void show_timeline(Ui& ui) {
   track.first = session.frames().front();
   track.last = session.frames().back();
   scrub(session, track);
-  draw_ticks(list, track);
-  draw_head(list, track, session.wanted_frame(), session.wanted_frame() != session.frame());
+  draw_ticks(list, track, session.wanted_frame());
+  draw_head(list, track, session.wanted_frame(), !session.playing() && session.wanted_frame() != session.frame());
   show_keys(ui, list, track);
   ImGui::SetCursorScreenPos({ui.layout.width - pad - px(28), row});
   command_button(ui, "time.key", icon::key, px(28), theme().handle, false);

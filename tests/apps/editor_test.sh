@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
-# editor_test.sh PROGRAMS story|large|storm
+# editor_test.sh PROGRAMS story|time|large|storm
 #
 # Uses the window as a person would: real mouse and keys on a screen of its own, with the validation layer on.
 #   story  opens the sample scan, marks head and feet, drags, undoes, redoes, saves, exports; the command line must come
 #          to the same points; the recorded events, played again, too; a broken file is a sentence and changes nothing
+#   time   opens the walking foal, marks, goes to another frame and drags there, which sets a key; plays, undoes, redoes,
+#          saves, exports all frames; the command line must come to the same frames
 #   large  opens, marks and drags 1,000,000 points
 #   storm  500 sizes of the window, then hidden and shown again: no message, no more memory than after the first 100
 # Prints how long the pictures of a drag took after their mouse events. SHOTS=FOLDER keeps screenshots.
@@ -195,6 +197,77 @@ replay() {
   within "$apart" 1e-6 || fail "the replay comes to other points"
 }
 
+# The largest distance between coordinates of two PC2 files of the same points; no number where they differ in size.
+apart_in_time() {
+  cmp -s -n 32 "$1" "$2" && [ "$(stat -c %s "$1")" = "$(stat -c %s "$2")" ] || return 0
+  paste <(od -An -v -tf4 -w4 -j32 "$1") <(od -An -v -tf4 -w4 -j32 "$2") | awk '
+    { d = $1 > $2 ? $1 - $2 : $2 - $1; if (!(d <= most)) most = d } END { printf "%.3g\n", most }'
+}
+
+# The frames of the keys of an edit's layers, in order.
+keys_of() { tr -d ' \n' <"$1" | grep -o '"keys":.*' | grep -o '"frame":[0-9]*' | cut -d: -f2 | xargs; }
+
+animation() {
+  "$programs/sinew-samples" "$work" walk 2>/dev/null
+  rm -f "$work"/*.edit.json
+  start_editor "$work/walk.####.obj"
+  until_done 60 title '^walk.####.obj - Sinew$'
+  sleep 2
+  press Return # the standard navigation
+  shot open
+  drag 615 120 755 295
+  press h
+  sleep 2
+  drag 325 440 590 570
+  press k
+  sleep 2
+  shot marked
+  press Right Right Right Right Right Right
+  sleep 1
+  press g x 0 period 3 Return
+  sleep 1
+  shot first-key
+  point 999 676
+  xdotool click 1
+  sleep 2
+  press g y 0 period 2 Return
+  sleep 2
+  shot second-key
+  press space
+  sleep 1.5
+  shot playing
+  press space
+  sleep 2
+  until_done 10 title '^walk.####.obj \* - Sinew$'
+  press ctrl+z
+  sleep 1
+  press ctrl+s
+  name "$work/one.json"
+  until_done 30 test -s "$work/one.json"
+  [ "$(keys_of "$work/one.json")" = 7 ] || fail "undone, there is not one key at 7 but: $(keys_of "$work/one.json")"
+  press ctrl+shift+z
+  sleep 1
+  press ctrl+shift+s
+  name "$work/edit.json"
+  until_done 30 test -s "$work/edit.json"
+  [ "$(keys_of "$work/edit.json")" = "7 18" ] || fail "not keys at 7 and 18 but: $(keys_of "$work/edit.json")"
+  press ctrl+e
+  name "$work/window.pc2"
+  until_done 60 test -s "$work/window.pc2"
+  shot saved
+  leave
+
+  "$programs/sinew" deform "$work/walk.####.obj" --edit "$work/edit.json" -o "$work/line.pc2" 2>"$work/log" ||
+    fail "sinew deform"
+  "$programs/sinew" convert "$work/walk.####.obj" "$work/rest.pc2" 2>"$work/log" || fail "sinew convert"
+  local apart moved
+  apart=$(apart_in_time "$work/line.pc2" "$work/window.pc2")
+  moved=$(apart_in_time "$work/rest.pc2" "$work/window.pc2")
+  echo "moved $moved, window and command line apart $apart"
+  within "$apart" 1e-6 || fail "the command line comes to other frames than the window"
+  ! within "$moved" 0.1 || fail "the drags moved nothing"
+}
+
 large() {
   "$programs/sinew-samples" "$work" large --points 1000000 --normals 2>/dev/null
   start_editor --times "$work/times" "$work/large.ply"
@@ -252,5 +325,8 @@ storm() {
 }
 
 start_screen
-"$what"
+case $what in
+  time) animation ;; # a word of the shell
+  *) "$what" ;;
+esac
 echo passed
