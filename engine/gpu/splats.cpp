@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "engine/geometry/gaussian.h"
+#include "engine/geometry/harmonics.h"
 #include "engine/geometry/parallel.h"
 
 namespace sinew::gpu {
@@ -30,20 +32,15 @@ const Attribute* find_opacity(const Shape& shape) {
 }
 
 Splats::Covariance covariance_of(const Attribute& rotation, const Attribute& scale, std::size_t i) {
-  const Eigen::Quaterniond q(rotation.number(i, 0), rotation.number(i, 1), rotation.number(i, 2),
-                             rotation.number(i, 3));
-  const Vec3 variances = (2 * Vec3(scale.number(i, 0), scale.number(i, 1), scale.number(i, 2))).array().exp();
-  const Mat3 R = q.normalized().toRotationMatrix();
-  const Eigen::Matrix3f S = (R * variances.asDiagonal() * R.transpose()).cast<float>();
+  const Gaussian gaussian{{rotation.number(i, 0), rotation.number(i, 1), rotation.number(i, 2), rotation.number(i, 3)},
+                          {scale.number(i, 0), scale.number(i, 1), scale.number(i, 2)}};
+  const Eigen::Matrix3f S = covariance(gaussian).cast<float>();
   return {S(0, 0), S(0, 1), S(0, 2), S(1, 1), S(1, 2), S(2, 2)};
 }
 
 /// Degree of "f_rest", which has all coefficients but the first of red, then of green, then of blue; 0: it has none.
 int degree_of(const Attribute* rest) {
-  if (rest == nullptr || !rest->per_point()) return 0;
-  for (const int degree : {1, 2, 3})
-    if (rest->components == 3 * ((degree + 1) * (degree + 1) - 1)) return degree;
-  return 0;
+  return rest != nullptr && rest->per_point() ? harmonics_degree(rest->components).value_or(0) : 0;
 }
 
 void read_harmonics(const Shape& shape, Splats& out) {
