@@ -36,7 +36,7 @@ set_tests_properties(gpu PROPERTIES LABELS gpu TIMEOUT 600)
 
 # The window, used by mouse and keys on a screen of its own; alone, because it waits for what a person would see.
 if(SINEW_EDITOR)
-  foreach(what story time large storm)
+  foreach(what story time splats large storm)
     add_test(NAME editor_${what} COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_test.sh $<TARGET_FILE_DIR:sinew-editor> ${what})
     set_tests_properties(editor_${what} PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)
   endforeach()

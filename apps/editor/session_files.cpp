@@ -4,7 +4,6 @@
 #include "engine/document/edit.h"
 #include "engine/document/evaluate.h"
 #include "engine/document/settings.h"
-#include "engine/geometry/skin.h"
 #include "engine/io/frame_pattern.h"
 #include "engine/io/io.h"
 #include "engine/io/sequence.h"
@@ -267,12 +266,13 @@ void Session::export_now(const Waiting& waiting) {
     export_frames(waiting);
     return;
   }
-  const auto work = [this, waiting, input = input_, layers = shown_](const Tell& tell) -> Background::Finish {
-    std::shared_ptr<const Shape> shape = input;
-    for (const document::LayerResult& layer : layers) {
-      shape = std::make_shared<const Shape>(skin(*shape, *layer.weights, *layer.pose));
-      if (!tell(-1)) throw io::Cancelled{};
-    }
+  // Evaluated anew rather than bent by the weights that are shown: attributes need their gradients.
+  const auto work = [this, waiting, sequence = sequence_, frame = frame_,
+                     layers = project().layers](const Tell& tell) -> Background::Finish {
+    document::Workspace workspace(sequence, methods_);
+    document::EvaluateOptions options;
+    options.progress = [&](const char*, std::size_t, double) { return tell(-1); };
+    const std::shared_ptr<const Shape> shape = document::evaluate(workspace, layers, frame, options).shape;
     const auto report = std::make_shared<io::WriteReport>(io::write(waiting.path, *shape, waiting.force));
     return [this, path = waiting.path, report] {
       lost_ = report->lost;

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "engine/geometry/skin.h"
 #include "engine/geometry/topology.h"
 #include "engine/gpu/level_of_detail.h"
 
@@ -31,6 +32,9 @@ std::vector<Vec3> normals_of(const Shape& shape, std::span<const std::uint32_t> 
   return normals;
 }
 
+/// More splats than this are only moved while the mouse drags, and take their new form when it rests.
+constexpr std::size_t splats_bent_live = 100'000;
+
 }  // namespace
 
 void Stage::note(const Changed& changed) {
@@ -44,6 +48,7 @@ void Stage::update(gpu::Frame& frame, Session& session, const View& view) {
   if (pending_.input) {
     points_.reset();
     triangles_ = {};
+    splats_.reset();
     weights_ = nullptr;
     if (session.has_input()) take_input(*session.input(), view);
     pending_.pose = pending_.marks = true;
@@ -55,7 +60,10 @@ void Stage::update(gpu::Frame& frame, Session& session, const View& view) {
       pending_.marks = true;
     }
     if (pending_.pose || pending_.weights) take_pose(frame, session);
+    const bool bend = pending_.pose || pending_.weights || (only_moved_ && !session.dragging());
+    if (splats_ && bend) bend_splats(session);
     if (pending_.marks) take_marks(session);
+    if (splats_ && (pending_.marks || (bend && !only_moved_))) color_splats(session);
   }
   pending_ = {};
 }
@@ -67,8 +75,47 @@ void Stage::take_input(const Shape& shape, const View& view) {
     gpu::set_order(device_, *points_, gpu::progressive_order(shape.positions));
   else
     triangles_ = gpu::create_triangles(device_, triangles);
+  if (triangles.empty() && gpu::holds_splats(shape)) splats_ = gpu::create_splats(shape);
+  only_moved_ = false;
   coloring_ = coloring_of(shape, view.color_by);
   colored_by_ = view.color_by;
+}
+
+/// Covariances and colours bend on the CPU, by the weights that are shown: without their gradients, which is as near as
+/// a picture needs; an export has them.
+void Stage::bend_splats(Session& session) {
+  only_moved_ = session.dragging() && splats_->count > splats_bent_live;
+  if (only_moved_) {
+    const std::span<const Vec3> bent = session.bent_positions();
+    for (std::size_t i = 0; i < bent.size(); ++i) splats_->positions[i] = (bent[i] - splats_->centre).cast<float>();
+    return;
+  }
+  std::shared_ptr<const Shape> shape = session.input();
+  for (const document::LayerResult& layer : session.shown())
+    if (layer.weights != nullptr && layer.pose != nullptr)
+      shape = std::make_shared<const Shape>(skin(*shape, *layer.weights, *layer.pose));
+  splats_ = gpu::create_splats(*shape);
+  splat_harmonics_ = splats_->harmonics;
+}
+
+/// Marks over the splats' own colours; an attribute that they are coloured by covers those.
+void Stage::color_splats(Session& session) {
+  splats_->harmonics = splat_harmonics_;
+  const gpu::Look& look = theme().look;
+  const auto mix = [&](std::size_t i, int r, int g, int b, float part) {
+    gpu::tint(*splats_, i, Eigen::Vector3i(r, g, b).cast<float>() / 255, part);
+  };
+  const std::vector<std::uint8_t>& marks = session.point_marks();
+  for (std::size_t i = 0; i < splats_->count; ++i) {
+    const gpu::PointColor& color = coloring_.colors[i];
+    if (!colored_by_.empty()) mix(i, color.r, color.g, color.b, 1);
+    // A selected splat's mark is seen through.
+    const std::pair<unsigned, gpu::Color> tints[] = {{gpu::shared::mark_selected, look.outline},
+                                                     {gpu::shared::mark_handle, look.handle},
+                                                     {gpu::shared::mark_fixed, look.fixed}};
+    for (const auto& [bit, tint] : tints)
+      if ((marks[i] & bit) != 0) mix(i, tint.r, tint.g, tint.b, gpu::shared::mark_strength);
+  }
 }
 
 void Stage::take_marks(Session& session) {
@@ -108,6 +155,10 @@ gpu::Scene Stage::scene(Session& session, const View& view, const Theme& theme, 
     scene.meshes.push_back({.points = &*points_, .triangles = &triangles_});
     if (view.show_rest)
       scene.meshes.push_back({.points = &*points_, .triangles = &triangles_, .rest = true, .ghost = 0.35});
+  } else if (splats_) {
+    scene.splats.push_back({&*splats_});
+    if (view.show_rest)
+      scene.clouds.push_back({.points = &*points_, .size = size, .count = count, .rest = true, .ghost = 0.35});
   } else {
     // Fewer points are drawn larger, so that the surface stays closed.
     const double share = static_cast<double>(std::max<std::size_t>(1, count)) /

@@ -9,6 +9,7 @@
 #include "apps/editor/view.h"
 #include "engine/gpu/paths.h"
 #include "engine/gpu/renderer.h"
+#include "engine/gpu/splats.h"
 
 namespace sinew::editor {
 
@@ -26,12 +27,15 @@ class Stage {
 
   std::size_t points() const { return points_ ? points_->count : 0; }
   bool is_mesh() const { return triangles_.count > 0; }
+  bool is_splats() const { return splats_.has_value(); }
   const Coloring& coloring() const { return coloring_; }
 
  private:
   void take_input(const Shape& shape, const View& view);
   void take_marks(Session& session);
   void take_pose(gpu::Frame& frame, Session& session);
+  void bend_splats(Session& session);
+  void color_splats(Session& session);
   void add_structure(gpu::Scene& scene, const Session& session, const View& view) const;
 
   const gpu::Device& device_;
@@ -39,6 +43,9 @@ class Stage {
   Changed pending_;
   std::optional<gpu::Points> points_;
   gpu::Triangles triangles_;
+  std::optional<gpu::Splats> splats_;             ///< bent, with marks; drawn in place of the points
+  std::vector<Eigen::Vector3f> splat_harmonics_;  ///< of splats_, without marks
+  bool only_moved_ = false;                       ///< splats_ have their new centres and their old covariances
   Coloring coloring_;
   std::string colored_by_;
   const SkinWeights* weights_ = nullptr;  ///< that the device has

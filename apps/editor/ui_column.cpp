@@ -294,7 +294,7 @@ void show_look(Ui& ui) {
     if (widget::choice("##color", chosen, names)) view.color_by = chosen == 0 ? "" : attributes[chosen - 1];
     if (ui.stage.coloring().has_range) show_legend(ui.stage.coloring());
   }
-  if (!ui.stage.is_mesh()) {
+  if (!ui.stage.is_mesh() && !ui.stage.is_splats()) {
     widget::label("Point size", "Diameter of a point on the screen");
     auto size = static_cast<float>(view.point_size);
     if (widget::slider("##size", size, 1, 8, "%.1f px")) {

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# editor_test.sh PROGRAMS story|time|large|storm
+# editor_test.sh PROGRAMS story|time|splats|large|storm
 #
 # Uses the window as a person would: real mouse and keys on a screen of its own, with the validation layer on.
 #   story  opens the sample scan, marks head and feet, drags, undoes, redoes, saves, exports; the command line must come
 #          to the same points; the recorded events, played again, too; a broken file is a sentence and changes nothing
 #   time   opens the walking foal, marks, goes to another frame and drags there, which sets a key; plays, undoes, redoes,
 #          saves, exports all frames; the command line must come to the same frames
+#   splats opens Gaussian splats, marks, drags, saves, exports; the command line must come to the same file, covariances
+#          and colours included
 #   large  opens, marks and drags 1,000,000 points
 #   storm  500 sizes of the window, then hidden and shown again: no message, no more memory than after the first 100
 # Prints how long the pictures of a drag took after their mouse events. SHOTS=FOLDER keeps screenshots.
@@ -266,6 +268,38 @@ animation() {
   echo "moved $moved, window and command line apart $apart"
   within "$apart" 1e-6 || fail "the command line comes to other frames than the window"
   ! within "$moved" 0.1 || fail "the drags moved nothing"
+}
+
+splats() {
+  "$programs/sinew-samples" "$work" splats 2>/dev/null
+  rm -f "$work/splats.edit.json"
+  start_editor "$work/splats.ply"
+  until_done 60 title '^splats.ply - Sinew$'
+  sleep 2
+  press Return
+  shot open
+  drag 530 105 665 215
+  press h
+  sleep 2
+  drag 370 490 570 600
+  press k
+  sleep 2
+  shot marked
+  follow 592 170 40
+  sleep 2
+  press alt+a
+  shot dragged
+  press ctrl+s
+  name "$work/edit.json"
+  until_done 30 test -s "$work/edit.json"
+  press ctrl+e
+  name "$work/window.ply"
+  until_done 30 test -s "$work/window.ply"
+  leave
+  "$programs/sinew" deform "$work/splats.ply" --edit "$work/edit.json" -o "$work/line.ply" 2>"$work/log" ||
+    fail "sinew deform"
+  ! cmp -s "$work/splats.ply" "$work/window.ply" || fail "the drag bent nothing"
+  cmp "$work/line.ply" "$work/window.ply" || fail "the command line comes to other splats than the window"
 }
 
 large() {
