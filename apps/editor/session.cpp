@@ -19,6 +19,7 @@ bool any_on(const document::Project& project) {
 
 Session::Session(std::span<const Method> methods, std::function<void()> wake)
     : methods_(repeatable(methods)),
+      file_methods_(methods.begin(), methods.end()),
       wake_(std::move(wake)),
       background_(std::make_unique<Background>(wake_)),
       measuring_(std::make_unique<Background>(wake_)),

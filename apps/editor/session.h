@@ -277,7 +277,8 @@ class Session {
   void selection_changed();
   bool refuse(const std::function<void()>& check);
 
-  std::vector<Method> methods_;  ///< repeatable
+  std::vector<Method> methods_;       ///< repeatable, for the solver that is asked again and again
+  std::vector<Method> file_methods_;  ///< as they are: exports begin as the command line does
   std::function<void()> wake_;
 
   std::shared_ptr<const Shape> input_;

@@ -269,7 +269,7 @@ void Session::export_now(const Waiting& waiting) {
   // Evaluated anew rather than bent by the weights that are shown: attributes need their gradients.
   const auto work = [this, waiting, sequence = sequence_, frame = frame_,
                      layers = project().layers](const Tell& tell) -> Background::Finish {
-    document::Workspace workspace(sequence, methods_);
+    document::Workspace workspace(sequence, file_methods_);
     document::EvaluateOptions options;
     options.progress = [&](const char*, std::size_t, double) { return tell(-1); };
     const std::shared_ptr<const Shape> shape = document::evaluate(workspace, layers, frame, options).shape;
@@ -292,7 +292,7 @@ void Session::export_frames(const Waiting& waiting) {
     options.rate = sequence->rate;
     options.force = waiting.force;
     const std::unique_ptr<io::FrameWriter> writer = io::create_frames(waiting.path, options);
-    document::Workspace workspace(sequence, methods_);
+    document::Workspace workspace(sequence, file_methods_);
     for (std::size_t i = 0; i < sequence->frames.size(); ++i) {
       if (!tell(static_cast<double>(i) / static_cast<double>(sequence->frames.size()))) throw io::Cancelled{};
       const int frame = sequence->frames[i];
