@@ -4,12 +4,15 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <numeric>
 
 #include "deformers/graph_influence.h"
 #include "deformers/graph_nodes.h"
+#include "deformers/graph_refine.h"
 #include "deformers/graph_solver.h"
 #include "engine/geometry/bounds.h"
 #include "engine/geometry/error.h"
+#include "engine/geometry/skin.h"
 
 namespace sinew {
 
@@ -54,13 +57,40 @@ std::vector<Index> nearest_points(const Shape& shape, std::span<const Vec3> to) 
   return near;
 }
 
+/// A graph is fine enough where what the maps of neighbouring nodes make of the edge between them differs by this part
+/// of its length (rms): half a degree of bend.
+constexpr double fine_enough = 0.01;
+
 class GraphDeformer final : public Deformer {
  public:
+  /// Null where progress said false.
+  static std::unique_ptr<GraphDeformer> make(std::shared_ptr<const Shape> rest, const GraphOptions& options,
+                                             std::vector<Vec3> nodes, std::vector<std::string> chosen_notes,
+                                             const std::function<bool(double)>& progress) {
+    GraphInfluence influence(nodes, {options.neighbours, options.surface, options.cuts});
+    std::vector<std::string> notes = chosen_notes;
+    std::optional<GraphInfluence::Bound> bound = influence.bind_shape(*rest, notes, progress);
+    if (!bound) return nullptr;
+    if (options.chain) {
+      CHECK(!options.given.empty());
+      bound->edges.clear();
+      for (Index j = 0; j + 1 < nodes.size(); ++j) bound->edges.emplace_back(j, j + 1);
+    }
+    auto out = std::make_unique<GraphDeformer>(std::move(rest), options, std::move(nodes), std::move(influence),
+                                               std::move(*bound), std::move(notes));
+    out->chosen_notes_ = std::move(chosen_notes);
+    return out;
+  }
+
   GraphDeformer(std::shared_ptr<const Shape> rest, const GraphOptions& options, std::vector<Vec3> nodes,
                 GraphInfluence influence, GraphInfluence::Bound bound, std::vector<std::string> notes)
-      : rest_(std::move(rest)),
+      : options_(options),
+        made_on_(rest),
+        rest_(std::move(rest)),
         unit_(normalization_of(bounds_of(rest_->positions))),
         nodes_(std::move(nodes)),
+        made_nodes_(nodes_),
+        chosen_(nodes_.size()),
         influence_(std::move(influence)),
         weights_(std::move(bound.weights)),
         notes_(std::move(notes)),
@@ -75,14 +105,28 @@ class GraphDeformer final : public Deformer {
   }
   const Pose& pose() const override { return pose_; }
   std::vector<double> map_energy() const override { return solver_.node_energy(); }
-  std::unique_ptr<Deformer> refined() const override { return nullptr; }
+
+  std::unique_ptr<Deformer> refined() const override {
+    if (options_.chain || nodes_.size() >= static_cast<std::size_t>(options_.adapt)) return nullptr;
+    const std::vector<double> energy = map_energy();
+    if (is_fine_enough(std::accumulate(energy.begin(), energy.end(), 0.0))) return nullptr;
+
+    // Where the structure was made, not where it followed to: the weights are bound once.
+    std::vector<Vec3> nodes = made_nodes_;
+    for (const Vec3& p : nodes_added(energy)) nodes.push_back(p);
+    if (nodes.size() == nodes_.size()) return nullptr;
+    auto finer = make(made_on_, options_, std::move(nodes), chosen_notes_, {});
+    finer->chosen_ = chosen_;
+    if (rest_ != made_on_) finer->follow(rest_);
+    finer->start_where(*this);
+    return finer;
+  }
 
   void follow(std::shared_ptr<const Shape> rest) override {
     CHECK(rest->size() == rest_->size(), rest->size(), rest_->size());
     if (carriers_.empty()) {
       carriers_ = nearest_points(*rest_, nodes_);
       for (const Index i : carriers_) carrier_rest_.push_back(rest_->positions[i]);
-      made_nodes_ = nodes_;
     }
     // A node between points keeps its place beside the nearest one. From where it was made: steps from frame to frame
     // would add up roundings, and the answer depend in its last digits on the frames before.
@@ -96,7 +140,14 @@ class GraphDeformer final : public Deformer {
     prepared_ = false;
     publish();
   }
-  std::vector<std::string> notes() const override { return notes_; }
+
+  std::vector<std::string> notes() const override {
+    std::vector<std::string> out = notes_;
+    if (const std::size_t added = nodes_.size() - chosen_; added > 0)
+      out.push_back(std::to_string(added) + (added == 1 ? " node was" : " nodes were") + " added to the " +
+                    std::to_string(chosen_) + " chosen, where the edit bends more than these could follow.");
+    return out;
+  }
 
   Figures counts() const override {
     return {{"nodes", static_cast<double>(nodes_.size())}, {"edges", static_cast<double>(solver_.edges().size())}};
@@ -194,17 +245,59 @@ class GraphDeformer final : public Deformer {
       pose_[j] << x.R[j], nodes_[j] + x.t[j] / unit_.scale - x.R[j] * nodes_[j];
   }
 
-  std::shared_ptr<const Shape> rest_;
+  bool is_fine_enough(double energy) const {
+    double squares = 0;
+    for (const auto& [j, k] : solver_.edges()) squares += 2 * (nodes_[j] - nodes_[k]).squaredNorm();
+    squares *= unit_.scale * unit_.scale;
+    constexpr double rounding = 1e-20;  // all at rest
+    return !(energy > options_.w_reg * fine_enough * fine_enough * squares + rounding);
+  }
+
+  /// Places for new nodes, where the energy is; on the shape that the structure was made on.
+  std::vector<Vec3> nodes_added(const std::vector<double>& energy) const {
+    const auto most = static_cast<std::size_t>(options_.adapt);
+    const std::vector<Vec3> candidates = node_candidates(*made_on_, most, options_.seed);
+    const SkinWeights weights = rest_ == made_on_
+                                    ? influence_.bind(candidates, Gradients::No)
+                                    : make(made_on_, options_, made_nodes_, {}, {})->bind(candidates, Gradients::No);
+    const std::vector<Index> marked = marked_nodes(energy);
+    std::vector<Vec3> out;
+    for (const Index i : candidates_to_add(candidates, weights, made_nodes_, solver_.edges(), marked, most - nodes_.size()))
+      out.push_back(candidates[i]);
+    return out;
+  }
+
+  /// x such that the shape stays where `coarser` has it: the nodes that are its own keep their maps, the others, behind
+  /// them, have what it blends at their places.
+  void start_where(const GraphDeformer& coarser) {
+    const std::size_t own = coarser.nodes_.size();
+    Pose pose = coarser.pose_;
+    const std::vector<Vec3> added(nodes_.begin() + static_cast<std::ptrdiff_t>(own), nodes_.end());
+    const SkinWeights weights = coarser.bind(added, Gradients::No);
+    std::vector<Vec3> moved(added.size());
+    std::vector<Mat3> M(added.size());
+    skin_points(weights, coarser.pose_, added, moved);
+    blend_matrices(weights, coarser.pose_, 0, M);
+    for (std::size_t i = 0; i < added.size(); ++i) {
+      pose.emplace_back();
+      pose.back() << M[i], moved[i] - M[i] * added[i];
+    }
+    start_from(pose);
+  }
+
+  GraphOptions options_;
+  std::shared_ptr<const Shape> made_on_, rest_;  ///< where the structure was made, and where it is
   Normalization unit_;
-  std::vector<Vec3> nodes_;
+  std::vector<Vec3> nodes_, made_nodes_;  ///< where they are, and where they were made
+  std::size_t chosen_;                    ///< the first of the nodes: those that refined() did not add
   GraphInfluence influence_;
   SkinWeights weights_;
-  std::vector<std::string> notes_;
+  std::vector<std::string> chosen_notes_, notes_;  ///< on choosing nodes; these and those on binding
   GraphSolver solver_;
   std::vector<Index> fixed_, handle_points_;
   std::vector<Index> carriers_;  ///< of each node, the point of the shape that carries it; empty until follow()
-  std::vector<Vec3> made_nodes_, carrier_rest_;  ///< where the structure was made: its nodes, and their carriers
-  bool prepared_ = true;                         ///< the solver knows the constraints and where the nodes are
+  std::vector<Vec3> carrier_rest_;  ///< where those points were when the structure was made
+  bool prepared_ = true;            ///< the solver knows the constraints and where the nodes are
   Pose pose_;
 };
 
@@ -228,6 +321,14 @@ const std::vector<Setting>& graph_settings() {
        "How nodes are chosen: evenly over the surface, or by simplifying the faces.",
        false,
        {"radius", "simplify"}},
+      {"adapt",
+       0,
+       0,
+       100000,
+       "",
+       "Where the edit bends more than the nodes can follow, others are added, up to this many in all; 0 adds none.",
+       true,
+       {}},
       {"seed", 0, 0, 1e9, "", "Another number gives another random sampling.", true, {}},
       {"rotation", 1, 0, 1e9, "", "Weight of staying rigid locally (w_rot).", false, {}},
       {"regularization",
@@ -256,6 +357,7 @@ std::unique_ptr<Deformer> make(std::shared_ptr<const Shape> rest, const Settings
   const auto value = [&](const char* name) { return value_of(settings, graph_settings(), name); };
   GraphOptions options;
   options.nodes = static_cast<int>(value("nodes"));
+  options.adapt = static_cast<int>(value("adapt"));
   options.neighbours = static_cast<int>(value("neighbours"));
   options.surface = value("distance") == 1;
   options.cuts.assign(wishes.cuts.begin(), wishes.cuts.end());
@@ -282,17 +384,8 @@ std::unique_ptr<Deformer> make_graph_deformer(std::shared_ptr<const Shape> rest,
   std::vector<std::string> notes;
   std::vector<Vec3> nodes = choose_nodes(*rest, options, notes);
   if (progress && !progress(0.2)) return nullptr;
-  GraphInfluence influence(nodes, {options.neighbours, options.surface, options.cuts});
-  std::optional<GraphInfluence::Bound> bound =
-      influence.bind_shape(*rest, notes, [&](double done) { return !progress || progress(0.2 + 0.8 * done); });
-  if (!bound) return nullptr;
-  if (options.chain) {
-    CHECK(!options.given.empty());
-    bound->edges.clear();
-    for (Index j = 0; j + 1 < nodes.size(); ++j) bound->edges.emplace_back(j, j + 1);
-  }
-  return std::make_unique<GraphDeformer>(std::move(rest), options, std::move(nodes), std::move(influence),
-                                         std::move(*bound), std::move(notes));
+  const auto binding = [&](double done) { return !progress || progress(0.2 + 0.8 * done); };
+  return GraphDeformer::make(std::move(rest), options, std::move(nodes), std::move(notes), binding);
 }
 
 Method graph_method() {

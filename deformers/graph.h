@@ -23,6 +23,7 @@ struct GraphOptions {
   bool plain = false;        ///< the paper's Gauss-Newton from the start, a new factor each iteration: the reference
   std::vector<Index> given;  ///< points of the shape to be the nodes; empty: chosen
   std::vector<Cut> cuts;     ///< no influence passes through these
+  int adapt = 0;             ///< most nodes that refined() grows the graph to; 0: it stays as it is
   bool chain = false;        ///< edges join each of `given` to the next and no others [section 5, particle simulations]
 };
 

@@ -44,8 +44,8 @@ std::vector<Vec3> points_on_faces(const Shape& shape, std::size_t count, std::ui
   return out;
 }
 
-/// Points in random order, that the nodes are chosen from, with the bounding-box diagonal at 1.
-std::vector<Vec3> candidates(const Shape& shape, std::size_t count, std::uint64_t seed, const Normalization& unit) {
+/// The points that are candidates but for outliers, in random order.
+std::vector<Vec3> all_candidates(const Shape& shape, std::size_t count, std::uint64_t seed) {
   const std::size_t wanted = candidates_for(count);
   std::vector<Vec3> points;
   for (const Vec3& p : shape.positions)
@@ -58,7 +58,7 @@ std::vector<Vec3> candidates(const Shape& shape, std::size_t count, std::uint64_
   for (std::size_t i = 0; i < points.size(); ++i) order[i] = {random_bits(seed + 1, i), i};
   std::sort(order.begin(), order.end());
   std::vector<Vec3> out;
-  for (std::size_t i = 0; i < std::min(order.size(), wanted); ++i) out.push_back(unit.apply(points[order[i].second]));
+  for (std::size_t i = 0; i < std::min(order.size(), wanted); ++i) out.push_back(points[order[i].second]);
   return out;
 }
 
@@ -139,11 +139,16 @@ void thin(std::vector<Vec3>& nodes, std::size_t count) {
 
 }  // namespace
 
+std::vector<Vec3> node_candidates(const Shape& shape, std::size_t count, std::uint64_t seed) {
+  const std::vector<Vec3> points = all_candidates(shape, count, seed);
+  return shape.faces.empty() ? without_outliers(points) : points;
+}
+
 std::vector<Vec3> sample_nodes(const Shape& shape, std::size_t count, std::uint64_t seed) {
   const Normalization unit = normalization_of(bounds_of(shape.positions));
-  std::vector<Vec3> points = candidates(shape, count, seed, unit);
-  if (shape.faces.empty()) points = without_outliers(points);
+  std::vector<Vec3> points = node_candidates(shape, count, seed);
   if (points.empty() || count == 0) return {};
+  for (Vec3& p : points) p = unit.apply(p);  // the diagonal at 1
 
   // A surface of area about 1/2 under a diagonal of 1 takes this radius; from there to one that keeps enough.
   double low = 0.7 / std::sqrt(static_cast<double>(count)), high = 2;

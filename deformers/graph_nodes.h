@@ -18,6 +18,9 @@ namespace sinew {
 /// the shape.
 std::vector<Vec3> sample_nodes(const Shape& shape, std::size_t count, std::uint64_t seed);
 
+/// The dense points that `count` nodes are sampled from, in random order: what sample_nodes starts with.
+std::vector<Vec3> node_candidates(const Shape& shape, std::size_t count, std::uint64_t seed);
+
 /// Quadric simplification that avoids long, thin triangles; the vertices that remain. For shapes with faces. `note`
 /// says in one sentence what the simplification could not use (faces that would make the mesh non-manifold), else stays
 /// empty.
