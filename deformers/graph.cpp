@@ -262,7 +262,8 @@ class GraphDeformer final : public Deformer {
                                     : make(made_on_, options_, made_nodes_, {}, {})->bind(candidates, Gradients::No);
     const std::vector<Index> marked = marked_nodes(energy);
     std::vector<Vec3> out;
-    for (const Index i : candidates_to_add(candidates, weights, made_nodes_, solver_.edges(), marked, most - nodes_.size()))
+    for (const Index i :
+         candidates_to_add(candidates, weights, made_nodes_, solver_.edges(), marked, most - nodes_.size()))
       out.push_back(candidates[i]);
     return out;
   }
@@ -295,7 +296,7 @@ class GraphDeformer final : public Deformer {
   std::vector<std::string> chosen_notes_, notes_;  ///< on choosing nodes; these and those on binding
   GraphSolver solver_;
   std::vector<Index> fixed_, handle_points_;
-  std::vector<Index> carriers_;  ///< of each node, the point of the shape that carries it; empty until follow()
+  std::vector<Index> carriers_;     ///< of each node, the point of the shape that carries it; empty until follow()
   std::vector<Vec3> carrier_rest_;  ///< where those points were when the structure was made
   bool prepared_ = true;            ///< the solver knows the constraints and where the nodes are
   Pose pose_;
