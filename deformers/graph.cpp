@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <optional>
 #include <numeric>
+#include <optional>
 
 #include "deformers/graph_influence.h"
 #include "deformers/graph_nodes.h"
