@@ -14,6 +14,7 @@ class Repeatable final : public Deformer {
   }
   void follow(std::shared_ptr<const Shape> rest) override {
     inner_->follow(std::move(rest));
+    followed_ = true;
     if (!start_.empty()) start_ = inner_->pose();  // the same x where the structure is now
   }
   std::vector<double> map_energy() const override { return inner_->map_energy(); }
@@ -31,7 +32,8 @@ class Repeatable final : public Deformer {
   std::vector<Table> binding() const override { return inner_->binding(); }
 
   SolveReport solve(const Constraints& constraints, const SolveOptions& options) override {
-    if (options.quality == SolveOptions::Quality::Final) {
+    // What moves is put where it is to begin by the workspace: at a pose of another frame, from which it has come.
+    if (options.quality == SolveOptions::Quality::Final && !followed_) {
       inner_->reset();
       if (!start_.empty()) inner_->start_from(start_);
     }
@@ -40,16 +42,19 @@ class Repeatable final : public Deformer {
 
   void reset() override {
     start_.clear();
+    followed_ = false;
     inner_->reset();
   }
   void start_from(const Pose& pose) override {
     start_ = pose;
+    followed_ = false;
     inner_->start_from(pose);
   }
 
  private:
   std::unique_ptr<Deformer> inner_;
-  Pose start_;  ///< empty: rest
+  Pose start_;             ///< empty: rest
+  bool followed_ = false;  ///< another rest shape was taken since it was put somewhere
 };
 
 }  // namespace
