@@ -1,7 +1,6 @@
 #include "deformers/graph_refine.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace sinew {

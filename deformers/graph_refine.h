@@ -7,7 +7,7 @@
 /// of the node. A sum of shares is therefore comparable between graphs of different density, and the fewest nodes are
 /// those whose shares are equal. Nodes are added around those that hold most of the whole [marked after Doerfler: A
 /// convergent adaptive algorithm for Poisson's equation, SIAM J. Numer. Anal. 1996], at twice the density: a steeper
-/// grading costs more stretch where coarse meets fine than it saves (tests/deformers/graph_refine_test.cpp).
+/// grading costs more stretch where coarse meets fine than it saves.
 
 #include <span>
 #include <utility>
