@@ -32,6 +32,9 @@ bool keyed_here(const Context& c) {
 bool in_run(const Context& c) {
   return c.session.has_input() && !c.session.moves() && !pattern_of_run(c.session.input_path()).empty();
 }
+bool has_cut(const Context& c) {
+  return c.session.layer() != nullptr && !c.session.layer()->cuts.empty();
+}
 bool layered(const Context& c) {
   return c.session.layer() != nullptr;
 }
@@ -154,6 +157,8 @@ const std::array table{
             has_tool<Tool::Lasso>},
     Command{"tool.brush", "Brush", "Edit/Tool", "C", "Paint the selection.", always, take_tool<Tool::Brush>,
             has_tool<Tool::Brush>},
+    Command{"tool.cut", "Cut", "Edit/Tool", "Shift+C", "Draw a line that no influence of the chosen layer passes.",
+            always, take_tool<Tool::Cut>, has_tool<Tool::Cut>},
     Command{"tool.smaller", "Smaller brush", "Edit/Tool", "[", "Paint with a smaller brush.", always,
             [](C& c) { set_brush(c, 1 / 1.15); }, nullptr, true},
     Command{"tool.larger", "Larger brush", "Edit/Tool", "]", "Paint with a larger brush.", always,
@@ -179,6 +184,8 @@ const std::array table{
     Command{"layer.toggle", "Show layer", "Layer", "", "Switch the chosen layer on or off.", layered,
             [](C& c) { c.session.toggle_layer(c.session.chosen_layer()); },
             [](const C& c) { return layered(c) && c.session.layer()->on; }},
+    Command{"layer.remove_cut", "Remove last cut", "Layer", "", "Let influence pass again where it was cut last.",
+            has_cut, [](C& c) { c.session.remove_cut(); }},
     Command{"layer.raise", "Raise layer", "Layer", "", "Let the chosen layer work after the one above it.", layered,
             [](C& c) { c.session.move_layer(c.session.chosen_layer(), 1); }},
     Command{"layer.lower", "Lower layer", "Layer", "", "Let the chosen layer work before the one below it.", layered,

@@ -39,6 +39,7 @@ inline constexpr const char* step_forward = "\uf051";
 inline constexpr const char* to_start = "\uf049";
 inline constexpr const char* to_end = "\uf050";
 inline constexpr const char* key = "\uf084";
+inline constexpr const char* cut = "\uf0c4";
 inline constexpr const char* cube = "\uf1b2";
 
 /// First and last code point of the font.

@@ -26,7 +26,7 @@ int modifier_of(int key) {
 }
 
 bool draws_strokes(Tool tool) {
-  return tool == Tool::Box || tool == Tool::Lasso || tool == Tool::Brush;
+  return tool == Tool::Box || tool == Tool::Lasso || tool == Tool::Brush || tool == Tool::Cut;
 }
 
 }  // namespace
@@ -223,6 +223,26 @@ void Mouse::end_stroke() {
     session.select(in_box(screen(), stroke_->points[0], stroke_->points[1], depth), stroke_->mode);
   else if (stroke_->tool == Tool::Lasso && stroke_->points.size() > 2)
     session.select(in_polygon(screen(), stroke_->points, depth), stroke_->mode);
+  else if (stroke_->tool == Tool::Cut && stroke_->points.size() > 1)
+    cut();
+}
+
+/// The stroke as a curtain along the view: as it is drawn where the middle of the shape is, and through all of it.
+void Mouse::cut() {
+  const View& view = context_.view;
+  const Bounds bounds = context_.session.rest_bounds();
+  Vec3 middle;
+  if (!gpu::project(view.camera, view.size, bounds.centre(), middle)) return;
+  const Vec3 depth = bounds.diagonal() * (view.camera.target - view.camera.eye).normalized();
+  std::vector<Vec3> path;
+  Eigen::Vector2d last = stroke_->points.front();
+  for (const Eigen::Vector2d& point : stroke_->points) {
+    const bool end = &point == &stroke_->points.front() || &point == &stroke_->points.back();
+    if (!end && (point - last).norm() < 2 * slack()) continue;
+    path.push_back(gpu::unproject(view.camera, view.size, point, middle.z()) - 0.5 * depth);
+    last = point;
+  }
+  context_.session.add_cut(path, depth);
 }
 
 void Mouse::brush(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {

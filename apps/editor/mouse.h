@@ -48,6 +48,7 @@ class Mouse {
   void double_click();
   void finish_manipulation();
   void end_stroke();
+  void cut();
   void brush(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
   const ScreenPoints& screen();
   std::optional<Vec3> point_under(const Eigen::Vector2d& at);

@@ -115,6 +115,7 @@ void draw_stroke(Ui& ui, ImDrawList* list) {
   std::vector<ImVec2> points;
   for (const Eigen::Vector2d& point : stroke->points) points.push_back(screen(point));
   list->AddPolyline(points.data(), static_cast<int>(points.size()), line, 0, 1.5f * scale());
+  if (stroke->tool == Tool::Cut) return;
   list->AddLine(points.back(), points.front(), packed(theme().accent, 0.5f), scale());
 }
 

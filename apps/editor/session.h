@@ -190,6 +190,9 @@ class Session {
   void delete_handle(std::size_t handle);
   void reset_handle(std::size_t handle);  ///< back to where its points rest
 
+  /// A curtain in the chosen layer (made where there is none), at rest; world coordinates.
+  void add_cut(std::span<const Vec3> path, const Vec3& depth);
+  void remove_cut();                          ///< the last one
   void add_layer(const std::string& method);  ///< above all others; chosen
   void remove_layer(std::size_t layer);
   void move_layer(std::size_t layer, int by);  ///< up (1) or down (-1) in the stack; stays chosen

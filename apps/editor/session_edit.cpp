@@ -191,6 +191,28 @@ void Session::reset_handle(std::size_t handle) {
 
 // Layers
 
+void Session::add_cut(std::span<const Vec3> path, const Vec3& depth) {
+  if (!has_input() || path.size() < 2) return;
+  cancel_drag();
+  Project project = history_.present();
+  if (project.layers.empty()) project.layers.push_back(standard_layer());
+  document::CutEdit cut;
+  for (const Vec3& p : path) cut.path.push_back(p + input_->origin);
+  cut.depth = depth;
+  project.layers[layer_].cuts.push_back(std::move(cut));
+  forget_starts(project, layer_);
+  apply(std::move(project), "Cut");
+}
+
+void Session::remove_cut() {
+  if (layer() == nullptr || layer()->cuts.empty()) return;
+  cancel_drag();
+  Project project = history_.present();
+  project.layers[layer_].cuts.pop_back();
+  forget_starts(project, layer_);
+  apply(std::move(project), "Remove cut");
+}
+
 void Session::choose_layer(std::size_t layer) {
   cancel_drag();
   if (layer >= project().layers.size() || layer == layer_) return;

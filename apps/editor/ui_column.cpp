@@ -252,6 +252,10 @@ void show_marks(Ui& ui) {
   if (mark_row("fixed", theme().fixed, "Fixed", fixed == 0 ? "none" : grouped(fixed) + " points", false,
                "Click to select the fixed points"))
     session.select_fixed();
+  if (session.layer() != nullptr && !session.layer()->cuts.empty())
+    if (mark_row("cuts", theme().warning, "Cuts", std::to_string(session.layer()->cuts.size()), false,
+                 "Click to remove the last cut"))
+      session.remove_cut();
   const std::size_t selected = session.selection().count();
   if (mark_row("selected", ImVec4(1, 0.82f, 0.54f, 1), "Selected",
                selected == 0 ? "none" : grouped(selected) + " points", false, "Click to select nothing"))

@@ -87,12 +87,17 @@ std::vector<Group> hints(const Ui& ui) {
     return out;
   }
   if (ui.mouse.stroking()) {
-    out.push_back({{{"let go to select", false}}, 0});
+    out.push_back({{{ui.context.view.tool == Tool::Cut ? "let go to cut" : "let go to select", false}}, 0});
     out.push_back(key("cancel", "Esc", 1));
     return out;
   }
-  const char* tools[] = {"click or drag to select", "drag a handle",         "drag a handle",
-                         "drag to select",          "draw around to select", "paint to select"};
+  const char* tools[] = {"click or drag to select",
+                         "drag a handle",
+                         "drag a handle",
+                         "drag to select",
+                         "draw around to select",
+                         "paint to select",
+                         "draw where nothing is to pass"};
   out.push_back({{{tools[static_cast<std::size_t>(view.tool)], false}}, 1});
   out.push_back(key("adds", "Shift", 2));
   out.push_back(key("removes", "Ctrl", 2));

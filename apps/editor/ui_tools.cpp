@@ -20,7 +20,7 @@ struct ToolRow {
   int tool = -1;  ///< of enum Tool; -1: a command that is done at once
 };
 
-constexpr std::array<ToolRow, 11> rows{
+constexpr std::array<ToolRow, 12> rows{
     {{"tool.select", icon::pointer, ToolRow::Tint::Plain, static_cast<int>(Tool::Select)},
      {"tool.move", icon::move, ToolRow::Tint::Plain, static_cast<int>(Tool::Move)},
      {"tool.rotate", icon::rotate, ToolRow::Tint::Plain, static_cast<int>(Tool::Rotate)},
@@ -28,6 +28,7 @@ constexpr std::array<ToolRow, 11> rows{
      {"tool.box", icon::box, ToolRow::Tint::Plain, static_cast<int>(Tool::Box)},
      {"tool.lasso", icon::lasso, ToolRow::Tint::Plain, static_cast<int>(Tool::Lasso)},
      {"tool.brush", icon::brush, ToolRow::Tint::Plain, static_cast<int>(Tool::Brush)},
+     {"tool.cut", icon::cut, ToolRow::Tint::Plain, static_cast<int>(Tool::Cut)},
      {"", ""},
      {"mark.fixed", icon::fixed, ToolRow::Tint::Fixed},
      {"mark.handle", icon::handle, ToolRow::Tint::Handle},

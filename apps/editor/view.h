@@ -12,7 +12,7 @@
 namespace sinew::editor {
 
 /// Click is part of all of them: a press and release on one place.
-enum class Tool { Select, Move, Rotate, Box, Lasso, Brush };
+enum class Tool { Select, Move, Rotate, Box, Lasso, Brush, Cut };
 enum class Space { World, Local };
 
 struct View {

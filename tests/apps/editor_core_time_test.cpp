@@ -240,6 +240,28 @@ TEST_F(EditorTime, AHandleIsResetAtTheFrameShown) {
   EXPECT_GT(distance(bent(), bar_at(1).positions), 0.1);
 }
 
+TEST_F(EditorTime, ACutIsAStepOfHistoryAndTheCommandLineCutsAsWell) {
+  fix_and_hold();
+  drag(Vec3(0, 0.2, 0));
+  const std::vector<Vec3> before = bent();
+  // Across the bar: what is fixed no longer holds the other end.
+  const std::vector<Vec3> path{Vec3(0.5, -2, -2), Vec3(0.5, 2, -2)};
+  session.add_cut(path, Vec3(0, 0, 4));
+  ASSERT_TRUE(settle()) << errors();
+  ASSERT_EQ(session.layer()->cuts.size(), 1u);
+  EXPECT_EQ(session.layer()->cuts[0].path[1], path[1] + session.input()->origin);
+  EXPECT_LE(distance(bent(), command_line(session.frame())), 1e-12);
+  EXPECT_GT(distance(bent(), before), 1e-3);
+  session.add_cut(std::vector<Vec3>{Vec3(0, 0, 0)}, Vec3(1, 0, 0));  // a point parts nothing
+  EXPECT_EQ(session.layer()->cuts.size(), 1u);
+  session.remove_cut();
+  ASSERT_TRUE(settle()) << errors();
+  EXPECT_TRUE(session.layer()->cuts.empty());
+  EXPECT_LE(distance(bent(), before), 1e-12);
+  session.undo();
+  EXPECT_EQ(session.layer()->cuts.size(), 1u);
+}
+
 TEST_F(EditorTime, ItPlaysAndADragStopsThat) {
   fix_and_hold();
   std::vector<int> seen;
