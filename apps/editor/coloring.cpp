@@ -93,4 +93,20 @@ Coloring coloring_of(const Shape& shape, const std::string& attribute) {
   return out;
 }
 
+Coloring energy_coloring(const Shape& shape, const document::LayerResult& layer) {
+  Coloring out = coloring_of(shape, "");
+  if (layer.map_energy == nullptr || layer.weights == nullptr || layer.weights->size() != shape.size()) return out;
+  Attribute energy;
+  energy.type = Type::Float64;
+  energy.values.resize(shape.size() * energy.row_size());
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    double sum = 0;
+    for (std::uint64_t e = layer.weights->offsets[i]; e < layer.weights->offsets[i + 1]; ++e)
+      sum += static_cast<double>(layer.weights->weights[e]) * (*layer.map_energy)[layer.weights->maps[e]];
+    energy.set_number(i, 0, sum);
+  }
+  color_by_numbers(energy, out);
+  return out;
+}
+
 }  // namespace sinew::editor

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/document/workspace.h"
 #include "engine/geometry/shape.h"
 #include "engine/gpu/points.h"
 
@@ -21,5 +22,12 @@ struct Coloring {
 
 /// `attribute` empty or unknown: plain.
 Coloring coloring_of(const Shape& shape, const std::string& attribute);
+
+/// What View::color_by is for the energy of the chosen layer's structure, where no attribute has that name.
+inline constexpr const char* energy_choice = "energy of the layer";
+
+/// By LayerResult::map_energy, blended by the points' weights: where the structure is strained. Plain where the answer
+/// has none.
+Coloring energy_coloring(const Shape& shape, const document::LayerResult& layer);
 
 }  // namespace sinew::editor

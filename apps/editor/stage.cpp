@@ -54,8 +54,12 @@ void Stage::update(gpu::Frame& frame, Session& session, const View& view) {
     pending_.pose = pending_.marks = true;
   }
   if (points_) {
-    if (view.color_by != colored_by_) {
+    const bool strained = view.color_by == energy_choice && (pending_.pose || pending_.weights);
+    if (view.color_by != colored_by_ || strained) {
       coloring_ = coloring_of(*session.input(), view.color_by);
+      if (view.color_by == energy_choice)
+        for (const document::LayerResult& layer : session.shown())
+          if (layer.layer == session.chosen_layer()) coloring_ = energy_coloring(*session.input(), layer);
       colored_by_ = view.color_by;
       pending_.marks = true;
     }

@@ -287,14 +287,16 @@ void show_look(Ui& ui) {
   const Shape& shape = *ui.context.session.input();
   widget::heading("SHOW");
   push_fields();
-  const std::vector<std::string> attributes = color_choices(shape);
+  std::vector<std::string> attributes = color_choices(shape);
+  if (ui.context.session.layer() != nullptr) attributes.emplace_back(energy_choice);
   if (!attributes.empty()) {
     std::vector<std::string> names{"Plain"};
     names.insert(names.end(), attributes.begin(), attributes.end());
     std::size_t chosen = 0;
     for (std::size_t i = 0; i < attributes.size(); ++i)
       if (attributes[i] == view.color_by) chosen = i + 1;
-    widget::label("Colour by", "The attribute that gives the points their colour");
+    widget::label("Colour by",
+                  "The attribute that gives the points their colour, or where the layer's structure is strained");
     if (widget::choice("##color", chosen, names)) view.color_by = chosen == 0 ? "" : attributes[chosen - 1];
     if (ui.stage.coloring().has_range) show_legend(ui.stage.coloring());
   }
