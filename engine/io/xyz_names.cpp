@@ -34,8 +34,8 @@ const std::vector<NamedGroup>& named_groups() {
 }
 
 std::vector<std::string> keys_of(const std::vector<std::string>& names) {
-  std::vector<std::string> keys;
-  for (const std::string& name : names) keys.push_back(xyz_lower(name));
+  std::vector<std::string> keys(names.size());
+  std::transform(names.begin(), names.end(), keys.begin(), xyz_lower);
   return keys;
 }
 
