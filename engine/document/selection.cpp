@@ -190,11 +190,11 @@ Constraints Selector::constraints(const Layer& layer, std::span<const Vec3> rest
   const Marked points = marked(layer, rest.size(), [this](const Selection& selection, bool as_written) {
     return as_written ? points_as_written(selection) : this->points(selection);
   });
-  Constraints out{points.fixed, {}};
+  Constraints out{points.fixed, {}, {}, {}};
   for (std::size_t h = 0; h < layer.handles.size(); ++h) {
     std::vector<Vec3> at;
     for (const Index i : points.handles[h]) at.push_back(rest[i]);
-    out.handles.push_back({points.handles[h], targets_of(layer.handles[h].motion, at, input_->origin)});
+    out.handles.push_back({points.handles[h], targets_of(layer.handles[h].motion, at, input_->origin), {}, {}});
   }
   return out;
 }

@@ -319,7 +319,7 @@ std::optional<Workspace::Wanted> Workspace::wanted(std::size_t i, int frame, con
     rest_second = rest_of(i, second.frame);
     if (rest_first == nullptr || rest_second == nullptr) return std::nullopt;
   }
-  Wanted out{{kept.marked->fixed, {}}, {}, {}};
+  Wanted out{{kept.marked->fixed, {}, {}, {}}, {}, {}};
   for (std::size_t h = 0; h < layer.handles.size(); ++h) {
     const std::vector<Index>& points = kept.marked->handles[h];
     const std::vector<Vec3> now = at(points, rest);
@@ -327,7 +327,7 @@ std::optional<Workspace::Wanted> Workspace::wanted(std::size_t i, int frame, con
                               ? first.handles[h]
                               : motion_between(first.handles[h], second.handles[h], span.u, at(points, *rest_first),
                                                at(points, *rest_second), now, rest.origin));
-    out.constraints.handles.push_back({points, targets_of(out.motions[h], now, rest.origin)});
+    out.constraints.handles.push_back({points, targets_of(out.motions[h], now, rest.origin), {}, {}});
     out.centres.push_back(std::accumulate(now.begin(), now.end(), Vec3(0, 0, 0)) / static_cast<double>(now.size()));
   }
   return out;

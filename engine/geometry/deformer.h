@@ -15,18 +15,32 @@
 
 namespace sinew {
 
-/// Points that are to be at targets; both relative to the shape's origin, in its unit. targets.size() == points.size().
+/// Points that are to be at targets; both relative to the shape's origin, in its unit. There is a target for each of
+/// `points`, then one for each of `places`.
 struct Handle {
   std::vector<Index> points;
   std::vector<Vec3> targets;
+  std::vector<Vec3> places;  ///< of the rest shape's space, inside or outside of it: markers, joints
+  /// How far the handle is turned, where the user turned it: axis times radians, of any length, so that a twist by more
+  /// than half a turn is known from a smaller one. The targets are where it ends.
+  std::optional<Vec3> turn;
 
   bool operator==(const Handle&) const = default;
+};
+
+/// Points around which the material is so many times as stiff as elsewhere.
+struct Stiff {
+  std::vector<Index> points;
+  double factor = 1;
+  bool operator==(const Stiff&) const = default;
 };
 
 /// What an edit asks for. Indices are points of the shape that the deformer was made for.
 struct Constraints {
   std::vector<Index> fixed;  ///< points that stay exactly where they are
   std::vector<Handle> handles;
+  std::vector<std::vector<Index>> rigid;  ///< groups that turn as one, each of one piece or of many
+  std::vector<Stiff> stiffness;
 };
 
 enum class Status { Converged, MaxIterations, Stalled, Stopped, Failed };
@@ -146,6 +160,7 @@ struct StructureWishes {
   /// Each of `points` is joined to the next and to no other: the path of a particle [Sumner et al. 2007, section 5].
   bool chain = false;
   std::span<const Cut> cuts;
+  std::shared_ptr<const Shape> solid;  ///< tets to use instead of making some, relative to the shape's origin
 };
 
 /// A method as the application hands it to document: one row of the table in deformers/methods.h.
@@ -163,6 +178,10 @@ struct Method {
   std::function<SkinWeights(const std::vector<Deformer::Table>& binding, std::span<const Vec3> points,
                             Gradients gradients)>
       bind;
+  /// Which parts of an edit it knows, of those that not every method does.
+  struct Parts {
+    bool rigid = false, stiffness = false, places = false, solid = false, examples = false;
+  } parts = {};
 };
 
 }  // namespace sinew

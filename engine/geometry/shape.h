@@ -2,6 +2,7 @@
 /// Shape: n rest points with named attributes and, if it has any, faces. A still is a Sequence of one frame.
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -49,6 +50,9 @@ struct Faces {
   }
 };
 
+/// Four points of positive volume: (p1 - p0) x (p2 - p0) . (p3 - p0) > 0.
+using Tet = std::array<Index, 4>;
+
 struct Shape {
   /// Subtracted from the file's coordinates, exactly (choose_origin), so that float keeps 1 mm at 5,400,000 m.
   Vec3 origin = Vec3::Zero();
@@ -57,6 +61,7 @@ struct Shape {
   Type position_type = Type::Float32;  ///< the file's: Float32 or Float64
   std::vector<Attribute> attributes;   ///< in the file's order
   Faces faces;
+  std::vector<Tet> tets;                       ///< of a solid mesh, over the same points; otherwise empty
   std::vector<Part> parts;                     ///< of a scan set, in order; otherwise empty
   std::shared_ptr<const FileContent> content;  ///< of the file; null for a shape made by a program
   std::vector<std::string> notes;              ///< what the reader dropped or found odd, one sentence with a count each
