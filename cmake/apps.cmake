@@ -18,6 +18,16 @@ add_executable(sinew ${SINEW_SOURCES})
 target_link_libraries(sinew PRIVATE sinew_document sinew_deformers sinew_gpu CLI11::CLI11 fmt::fmt)
 set_source_files_properties(apps/sinew/command_line.cpp PROPERTIES COMPILE_DEFINITIONS SINEW_VERSION="${PROJECT_VERSION}")
 
+# sinew-tets, the process that fills surfaces with tets: the only one that links TetGen, which has its own licence (AGPL)
+# and ends its process on some surfaces. Its symbols are visible to the library, which calls terminatetetgen by name.
+find_path(TETGEN_INCLUDE_DIR tetgen.h REQUIRED)
+find_library(TETGEN_LIBRARY tet REQUIRED)
+add_executable(sinew-tets apps/tets/main.cpp apps/tets/terminate.cpp)
+target_include_directories(sinew-tets SYSTEM PRIVATE ${TETGEN_INCLUDE_DIR})
+target_compile_definitions(sinew-tets PRIVATE TETLIBRARY)
+target_link_libraries(sinew-tets PRIVATE sinew_common ${TETGEN_LIBRARY})
+set_target_properties(sinew-tets PROPERTIES ENABLE_EXPORTS ON)
+
 # The editor without its window: everything that can be tested without a display.
 set(SINEW_EDITOR_CORE background commands figures keys lod manipulation marks navigation point_set preferences repeatable
                       session session_drag session_edit session_files session_time tools view)

@@ -34,6 +34,7 @@ double tet_volume(const Vec3& p0, const Vec3& p1, const Vec3& p2, const Vec3& p3
 struct TetMeshOptions {
   int vertices = 5000;       ///< the surface is decimated to about so many; one that has fewer stays as it is
   bool inside = false;       ///< vertices inside are added for better tets
+  int close_holes = 0;       ///< holes of up to so many edges are closed
   double max_seconds = 120;  ///< for the tets; the process that makes them is ended then
   std::size_t max_bytes = 4ull << 30;
 };

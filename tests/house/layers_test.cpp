@@ -28,6 +28,7 @@ const std::vector<Layer>& layers() {
       {"apps/sinew/", {"engine/", "deformers/", "shaders/shared.h"}},
       {"apps/editor/", {"engine/", "deformers/", "shaders/shared.h"}},
       {"apps/samples/", {"engine/geometry/", "engine/io/"}},
+      {"apps/tets/", {"deformers/tet_protocol.h"}},
   };
   return table;
 }
@@ -37,6 +38,7 @@ const std::map<std::string, std::vector<std::string>>& third_party() {
   static const std::map<std::string, std::vector<std::string>> table{
       {"flann/", {"engine/geometry/nearest.cpp"}},
       {"OpenMesh/", {"deformers/graph_simplify.cpp"}},
+      {"tetgen.h", {"apps/tets/main.cpp"}},
       {"metis.h", {"deformers/sparse_cholesky_symbolic.cpp"}},
       {"lzf.h", {"engine/io/pcd.cpp"}},
       {"png.h", {"engine/gpu/png.cpp"}},
