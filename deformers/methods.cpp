@@ -1,11 +1,12 @@
 #include "deformers/methods.h"
 
 #include "deformers/graph.h"
+#include "deformers/tet.h"
 
 namespace sinew {
 
 std::span<const Method> methods() {
-  static const Method table[] = {graph_method()};
+  static const Method table[] = {graph_method(), tet_method()};
   return table;
 }
 

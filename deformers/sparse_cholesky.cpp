@@ -234,4 +234,80 @@ void SparseCholesky::solve(std::span<double> x) const {
     std::copy_n(x_.data() + i * block_, block_, x.data() + order_[i] * block_);
 }
 
+void SparseCholesky::solve_three(std::span<double> x) const {
+  CHECK(factorized_ && x.size() == 3 * x_.size(), x.size(), x_.size());
+  const std::size_t n = x_.size(), b = block_;
+  x3_.resize(3 * n);
+  work3_.resize(3 * work_.size());
+  double *x0 = x3_.data(), *x1 = x0 + n, *x2 = x1 + n;
+  double *w0 = work3_.data(), *w1 = w0 + work_.size(), *w2 = w1 + work_.size();
+  for (std::size_t i = 0; i < order_.size(); ++i)
+    for (std::size_t r = 0; r < b; ++r)
+      for (std::size_t c = 0; c < 3; ++c) x3_[c * n + i * b + r] = x[3 * (order_[i] * b + r) + c];
+
+  for (const Supernode& s : supernodes_) {  // L y = P x
+    const std::size_t columns = s.width * b, rows = s.rows.size() * b, first = s.first * b;
+    std::fill_n(w0, rows - columns, 0.0);
+    std::fill_n(w1, rows - columns, 0.0);
+    std::fill_n(w2, rows - columns, 0.0);
+    for (std::size_t k = 0; k < columns; ++k) {
+      const double* L = panels_.data() + s.panel + k * s.stride;
+      double *own0 = x0 + first, *own1 = x1 + first, *own2 = x2 + first;
+      const double a0 = own0[k] /= L[k], a1 = own1[k] /= L[k], a2 = own2[k] /= L[k];
+      for (std::size_t r = k + 1; r < columns; ++r) {
+        own0[r] -= L[r] * a0;
+        own1[r] -= L[r] * a1;
+        own2[r] -= L[r] * a2;
+      }
+      const double* below = L + columns;
+      for (std::size_t r = 0; r < rows - columns; ++r) {
+        w0[r] += below[r] * a0;
+        w1[r] += below[r] * a1;
+        w2[r] += below[r] * a2;
+      }
+    }
+    for (std::size_t r = s.width; r < s.rows.size(); ++r)
+      for (std::size_t i = 0; i < b; ++i) {
+        const std::size_t to = s.rows[r] * b + i, from = (r - s.width) * b + i;
+        x0[to] -= w0[from];
+        x1[to] -= w1[from];
+        x2[to] -= w2[from];
+      }
+  }
+  for (std::size_t j = supernodes_.size(); j-- > 0;) {  // L' z = y
+    const Supernode& s = supernodes_[j];
+    const std::size_t columns = s.width * b, rows = s.rows.size() * b, first = s.first * b;
+    for (std::size_t r = s.width; r < s.rows.size(); ++r)
+      for (std::size_t i = 0; i < b; ++i) {
+        const std::size_t from = s.rows[r] * b + i, to = (r - s.width) * b + i;
+        w0[to] = x0[from];
+        w1[to] = x1[from];
+        w2[to] = x2[from];
+      }
+    for (std::size_t k = columns; k-- > 0;) {
+      const double* L = panels_.data() + s.panel + k * s.stride;
+      double *own0 = x0 + first, *own1 = x1 + first, *own2 = x2 + first;
+      double a0 = own0[k], a1 = own1[k], a2 = own2[k];
+      for (std::size_t r = k + 1; r < columns; ++r) {
+        a0 -= L[r] * own0[r];
+        a1 -= L[r] * own1[r];
+        a2 -= L[r] * own2[r];
+      }
+      const double* below = L + columns;
+      using Run = Eigen::Map<const Eigen::VectorXd>;
+      const auto length = static_cast<Eigen::Index>(rows - columns);
+      const Run l(below, length);
+      a0 -= l.dot(Run(w0, length));
+      a1 -= l.dot(Run(w1, length));
+      a2 -= l.dot(Run(w2, length));
+      own0[k] = a0 / L[k];
+      own1[k] = a1 / L[k];
+      own2[k] = a2 / L[k];
+    }
+  }
+  for (std::size_t i = 0; i < order_.size(); ++i)
+    for (std::size_t r = 0; r < b; ++r)
+      for (std::size_t c = 0; c < 3; ++c) x[3 * (order_[i] * b + r) + c] = x3_[c * n + i * b + r];
+}
+
 }  // namespace sinew

@@ -49,6 +49,10 @@ class SparseCholesky {
   /// x <- (H + diag(damping))^-1 x. x: size * block. CHECKs that there is a factor.
   void solve(std::span<double> x) const;
 
+  /// The same for three right-hand sides at a time, number by number side by side: x: size * block * 3. Faster than one
+  /// after the other, since what bounds it is reading L.
+  void solve_three(std::span<double> x) const;
+
   std::size_t factor_values() const { return panels_.size(); }  ///< doubles in L's panels
   double flops() const { return flops_; }                       ///< of one factorization
 
@@ -76,7 +80,7 @@ class SparseCholesky {
   std::vector<Target> targets_;
   std::vector<double> panels_, update_;
   std::vector<Index> place_;  ///< row of the panel at work, by permuted block row
-  mutable std::vector<double> x_, work_;
+  mutable std::vector<double> x_, work_, x3_, work3_;
   double flops_ = 0;
   bool factorized_ = false;
 };

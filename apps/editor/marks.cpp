@@ -96,7 +96,7 @@ LayerPoints points_of(const Layer& layer, document::Selector& selector, std::opt
     out.fixed.push_back(elsewhere(selection) ? std::vector<Index>{} : selector.points(selection));
   for (const HandleEdit& handle : layer.handles) {
     std::vector<Index>& points = out.handles.emplace_back();
-    if (elsewhere(handle.points)) continue;
+    if (elsewhere(handle.points) || std::holds_alternative<document::SelectPlaces>(handle.points.what)) continue;
     points =
         handle.motion.to.get().empty() ? selector.points(handle.points) : selector.points_as_written(handle.points);
   }

@@ -134,9 +134,17 @@ static void fields(A& a, Is<SelectLabels> auto& labels) {
   a.required("value", labels.value);
 }
 
+template <class A>
+static void fields(A& a, Is<SelectPlaces> auto& places) {
+  a.required("places", places.at);
+  if constexpr (A::reading)
+    if (const Json* json = a.json().find("places"); json != nullptr && places.at.get().empty())
+      throw a.file().error(*json, "at least one place", "none");
+}
+
 /// Sets `what` to the alternative whose first member the object has; the names stand in the order of the variant.
 static void choose_kind(const ObjectReader& reader, Selection& selection) {
-  static constexpr std::array names = {"all", "indices", "box", "sphere", "nearest", "component", "labels"};
+  static constexpr std::array names = {"all", "indices", "box", "sphere", "nearest", "component", "labels", "places"};
   static_assert(names.size() == std::variant_size_v<decltype(selection.what)>);
   std::string expected = "a selection, one of", found;
   std::size_t kind = names.size();
@@ -288,6 +296,7 @@ static void fields(A& a, Is<Layer> auto& layer) {
   a.optional("frame", layer.frame);
   a.optional("path", layer.path);
   a.optional("cuts", layer.cuts);
+  a.optional("tets", layer.tets);
   a.optional("nodes", layer.nodes);
   a.optional("fixed", layer.fixed);
   a.optional("handles", layer.handles);
@@ -323,6 +332,7 @@ static void change_paths(Project& project, const Change& change) {
   for (std::string& path : project.inputs) path = change(path);
   for (Layer& layer : project.layers) {
     for (std::string& path : layer.examples) path = change(path);
+    if (!layer.tets.empty()) layer.tets = change(layer.tets);
     for (Selection& selection : layer.nodes) visit(selection);
     for (Selection& selection : layer.fixed) visit(selection);
     for (Selection& selection : layer.rigid) visit(selection);

@@ -111,6 +111,8 @@ void Footage::set_layers(std::span<const Layer> layers) {
     for (const Selection& selection : layer.nodes) add(selection);
     for (const Selection& selection : layer.fixed) add(selection);
     for (const HandleEdit& handle : layer.handles) add(handle.points);
+    for (const Selection& selection : layer.rigid) add(selection);
+    for (const Stiffness& stiffness : layer.stiffness) add(stiffness.points);
   }
   if (!stream) {
     gathered_ = nullptr;

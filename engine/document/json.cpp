@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
+#include "engine/io/bytes.h"
+#include "engine/io/io.h"
 #include "engine/io/text.h"
 
 namespace sinew::document {
@@ -87,8 +90,27 @@ void read_value(const JsonFile& file, const Json& json, Affine& value) {
   value = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(rows);
 }
 
+/// 16 numbers row by row, separated by white space; from # to the end of the line is a comment.
+static Eigen::Matrix4d read_matrix(const std::string& path) {
+  const std::vector<std::byte> bytes = io::load_bytes(path);
+  io::TextCursor cursor(path, io::as_text(bytes));
+  Eigen::Matrix4d out;
+  for (int k = 0; k < 16; ++k) {
+    const io::Token token = cursor.next('#');
+    if (!io::parse(token.text, out(k / 4, k % 4)) || !std::isfinite(out(k / 4, k % 4)))
+      throw cursor.error(token, "16 finite numbers, a 4x4 matrix row by row");
+  }
+  if (const io::Token token = cursor.next('#'); !token.text.empty())
+    throw cursor.error(token, "the end of the file after 16 numbers");
+  return out;
+}
+
 void read_value(const JsonFile& file, const Json& json, Eigen::Matrix4d& value) {
-  static const std::string expected = "4 rows of 4 numbers";
+  if (json.type == Json::Type::Text) {
+    value = read_matrix((std::filesystem::path(file.path()).parent_path() / json.text()).string());
+    return;
+  }
+  static const std::string expected = "4 rows of 4 numbers, or a file of them";
   if (json.type != Json::Type::Array || json.items().size() != 4) throw file.error(json, expected);
   for (int r = 0; r < 4; ++r) {
     double row[4];

@@ -102,7 +102,8 @@ void read_value(const JsonFile& file, const Json& json, Index& value);  ///< who
 void read_value(const JsonFile& file, const Json& json, std::string& value);
 void read_value(const JsonFile& file, const Json& json, Vec3& value);             ///< [x, y, z]
 void read_value(const JsonFile& file, const Json& json, Affine& value);           ///< 12 numbers, row by row
-void read_value(const JsonFile& file, const Json& json, Eigen::Matrix4d& value);  ///< 4 rows of 4
+void read_value(const JsonFile& file, const Json& json, Eigen::Matrix4d& value);  ///< 4 rows of 4, or the
+                                                                                  ///< path of a file of them
 template <class T>
 requires is_object<T>
 void read_value(const JsonFile& file, const Json& json, T& value);

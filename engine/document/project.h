@@ -62,9 +62,17 @@ struct SelectLabels {
   bool operator==(const SelectLabels&) const = default;
 };
 
+/// Places in the space of the shape instead of its points: of handles alone. Such a handle pulls what is there along.
+struct SelectPlaces {
+  Shared<Vec3> at;
+  bool operator==(const SelectPlaces&) const = default;
+};
+
 /// Which points: interface.md, SELECTION. Coordinates are the file's own, before any edit, borders included.
 struct Selection {
-  std::variant<SelectAll, SelectIndices, SelectBox, SelectSphere, SelectNearest, SelectComponent, SelectLabels> what;
+  std::variant<SelectAll, SelectIndices, SelectBox, SelectSphere, SelectNearest, SelectComponent, SelectLabels,
+               SelectPlaces>
+      what;
   Place place;
   /// Of a sequence: where the points are looked for; absent: the layer's frame.
   std::optional<int> frame = std::nullopt;
@@ -149,6 +157,7 @@ struct Layer {
   std::optional<int> frame;  ///< of a sequence: that the structure is made at; absent: the first key's, or the first
   std::optional<ParticlePath> path;
   std::vector<CutEdit> cuts;
+  std::string tets;              ///< a file of tets for the method to use, as SelectLabels::path; empty: it makes some
   std::vector<Selection> nodes;  ///< points that the method is to build its structure on; empty: it chooses
   std::vector<Selection> fixed;
   std::vector<HandleEdit> handles;

@@ -115,6 +115,9 @@ std::vector<Index> Selector::select(const Selection& selection) {
       const std::vector<std::int64_t>& of_point = selector.labels(labels.path);
       return finite_points(shape, [&](std::size_t i, const Vec3&) { return of_point[i] == labels.value; });
     }
+    std::vector<Index> operator()(const SelectPlaces&) const {
+      throw file_error(place.text, "points of the shape (places are for handles alone)", "\"places\"");
+    }
   };
   std::vector<Index> out = std::visit(Select{*this, *input_, selection.place}, selection.what);
   if (out.empty()) throw file_error(selection.place.text, "a selection of at least one point", "none");
@@ -170,10 +173,12 @@ Marked marked(const Layer& layer, std::size_t count,
     bool as_written = !edit.motion.to.get().empty();
     for (const Key& key : layer.keys)
       as_written = as_written || (h < key.handles.size() && !key.handles[h].to.get().empty());
-    std::vector<Index> points = select(edit.points, as_written);
-    check_targets(edit.motion, edit.place, points.size());
+    const SelectPlaces* places = std::get_if<SelectPlaces>(&edit.points.what);
+    std::vector<Index> points = places == nullptr ? select(edit.points, as_written) : std::vector<Index>{};
+    const std::size_t size = places == nullptr ? points.size() : places->at.get().size();
+    check_targets(edit.motion, edit.place, size);
     for (const Key& key : layer.keys)
-      if (h < key.handles.size()) check_targets(key.handles[h], key.place, points.size());
+      if (h < key.handles.size()) check_targets(key.handles[h], key.place, size);
     for (const Index i : points) {
       if (owner[i] != none)
         throw file_error(edit.place.text, "points of this handle alone",
@@ -182,7 +187,21 @@ Marked marked(const Layer& layer, std::size_t count,
     }
     out.handles.push_back(std::move(points));
   }
+  for (const Selection& selection : layer.rigid) out.rigid.push_back(select(selection, false));
+  for (const Stiffness& edit : layer.stiffness) out.stiffness.push_back({select(edit.points, false), edit.factor});
   return out;
+}
+
+std::vector<Vec3> handle_places(const HandleEdit& handle, const Vec3& origin) {
+  std::vector<Vec3> out;
+  if (const SelectPlaces* places = std::get_if<SelectPlaces>(&handle.points.what))
+    for (const Vec3& p : places->at.get()) out.push_back(p - origin);
+  return out;
+}
+
+std::optional<Vec3> turn_of(const Motion& motion) {
+  if (!motion.rotate) return std::nullopt;
+  return motion.rotate->axis.stableNormalized() * (motion.rotate->degrees * (std::numbers::pi / 180));
 }
 
 Constraints Selector::constraints(const Layer& layer, std::span<const Vec3> rest) {
@@ -190,11 +209,14 @@ Constraints Selector::constraints(const Layer& layer, std::span<const Vec3> rest
   const Marked points = marked(layer, rest.size(), [this](const Selection& selection, bool as_written) {
     return as_written ? points_as_written(selection) : this->points(selection);
   });
-  Constraints out{points.fixed, {}, {}, {}};
+  Constraints out{points.fixed, {}, points.rigid, points.stiffness};
   for (std::size_t h = 0; h < layer.handles.size(); ++h) {
-    std::vector<Vec3> at;
+    const HandleEdit& edit = layer.handles[h];
+    std::vector<Vec3> at, places = handle_places(edit, input_->origin);
     for (const Index i : points.handles[h]) at.push_back(rest[i]);
-    out.handles.push_back({points.handles[h], targets_of(layer.handles[h].motion, at, input_->origin), {}, {}});
+    at.insert(at.end(), places.begin(), places.end());
+    out.handles.push_back(
+        {points.handles[h], targets_of(edit.motion, at, input_->origin), std::move(places), turn_of(edit.motion)});
   }
   return out;
 }

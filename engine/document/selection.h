@@ -16,8 +16,13 @@ namespace sinew::document {
 /// Points of a layer's marks, in the order of the layer's handles.
 struct Marked {
   std::vector<Index> fixed;
-  std::vector<std::vector<Index>> handles;
+  std::vector<std::vector<Index>> handles;  ///< of a handle of places: none
+  std::vector<std::vector<Index>> rigid;
+  std::vector<Stiff> stiffness;
 };
+
+/// The places of a handle that has such, relative to `origin`; else none.
+std::vector<Vec3> handle_places(const HandleEdit& handle, const Vec3& origin);
 
 /// Makes the selections of a layer by `select` (of a selection; true: indices in their written order). `count`: of all
 /// points. Throws InputError where a point belongs to two handles, or to a handle and the fixed, or a "to" has another
@@ -52,6 +57,9 @@ class Selector {
   std::optional<Components> components_;
   std::unordered_map<std::string, std::vector<std::int64_t>> labels_;
 };
+
+/// How far a motion turns, where that is said: the rotation's axis times radians (Handle::turn).
+std::optional<Vec3> turn_of(const Motion& motion);
 
 /// Targets of points at `rest` (relative to `origin`) under a motion in the file's coordinates; relative to `origin`
 /// again. rest.size() == motion.to.size() where the motion has `to`.

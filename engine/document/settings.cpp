@@ -1,6 +1,8 @@
 #include "engine/document/settings.h"
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "engine/io/text.h"
 
@@ -48,12 +50,22 @@ double value_of(const SettingEdit& edit, const Setting& setting) {
   return *number;
 }
 
-/// Parts of a layer that no method of the table knows yet: their name and how many the layer has.
-void refuse_unknown_parts(const Layer& layer) {
-  const std::pair<const char*, std::size_t> parts[] = {
-      {"rigid", layer.rigid.size()}, {"stiffness", layer.stiffness.size()}, {"examples", layer.examples.size()}};
-  for (const auto& [name, count] : parts)
-    if (count > 0)
+std::size_t count_places(const Layer& layer) {
+  return static_cast<std::size_t>(std::count_if(layer.handles.begin(), layer.handles.end(), [](const HandleEdit& h) {
+    return std::holds_alternative<SelectPlaces>(h.points.what);
+  }));
+}
+
+/// Parts of a layer that its method does not know: their name and how many the layer has.
+void refuse_unknown_parts(const Layer& layer, const Method& method) {
+  const std::tuple<const char*, bool, std::size_t> parts[] = {
+      {"rigid", method.parts.rigid, layer.rigid.size()},
+      {"stiffness", method.parts.stiffness, layer.stiffness.size()},
+      {"examples", method.parts.examples, layer.examples.size()},
+      {"tets", method.parts.solid, layer.tets.empty() ? 0 : 1},
+      {"places", method.parts.places, count_places(layer)}};
+  for (const auto& [name, known, count] : parts)
+    if (count > 0 && !known)
       throw place_error(layer.place, "layer", "no \"" + std::string(name) + "\" for method " + layer.method,
                         std::to_string(count));
 }
@@ -89,8 +101,9 @@ Settings settings_of(const Layer& layer, const Method& method) {
 void check_layers(std::span<const Layer> layers, std::span<const Method> methods) {
   for (const Layer& layer : layers) {
     if (!layer.on) continue;
-    settings_of(layer, method_of(layer, methods));
-    refuse_unknown_parts(layer);
+    const Method& method = method_of(layer, methods);
+    settings_of(layer, method);
+    refuse_unknown_parts(layer, method);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "engine/document/pose_blend.h"
 #include "engine/document/settings.h"
 #include "engine/geometry/skin.h"
+#include "engine/io/io.h"
 
 namespace sinew::document {
 
@@ -20,12 +21,12 @@ double seconds_since(Clock::time_point begin) {
 }
 
 bool same_constraints(const Constraints& a, const Constraints& b) {
-  return a.fixed == b.fixed && a.handles == b.handles;
+  return a.fixed == b.fixed && a.handles == b.handles && a.rigid == b.rigid && a.stiffness == b.stiffness;
 }
 
 bool same_structure(const Layer& a, const Layer& b) {
   return a.method == b.method && a.settings == b.settings && a.nodes == b.nodes && a.path == b.path &&
-         a.cuts == b.cuts && a.frame == b.frame;
+         a.cuts == b.cuts && a.tets == b.tets && a.frame == b.frame;
 }
 
 bool names_targets(const Layer& layer) {
@@ -37,7 +38,8 @@ bool names_targets(const Layer& layer) {
 
 /// Whether the same points are marked; with targets of their own, the check of their number has to be made again.
 bool same_marks(const Layer& a, const Layer& b) {
-  return !names_targets(a) && !names_targets(b) && a.fixed == b.fixed && a.frame == b.frame &&
+  return !names_targets(a) && !names_targets(b) && a.fixed == b.fixed && a.rigid == b.rigid &&
+         a.stiffness == b.stiffness && a.frame == b.frame &&
          std::equal(a.handles.begin(), a.handles.end(), b.handles.begin(), b.handles.end(),
                     [](const HandleEdit& x, const HandleEdit& y) { return x.points == y.points; }) &&
          a.keys.empty() == b.keys.empty() && (a.keys.empty() || a.keys[0].frame == b.keys[0].frame);
@@ -52,10 +54,22 @@ std::vector<Cut> cuts_of(const Layer& layer, const Vec3& origin) {
   return out;
 }
 
-std::vector<Vec3> at(std::span<const Index> points, const Shape& shape) {
+/// Positions of points, then places.
+std::vector<Vec3> at(std::span<const Index> points, std::span<const Vec3> places, const Shape& shape) {
   std::vector<Vec3> out;
-  out.reserve(points.size());
+  out.reserve(points.size() + places.size());
   for (const Index i : points) out.push_back(shape.positions[i]);
+  out.insert(out.end(), places.begin(), places.end());
+  return out;
+}
+
+/// The tets that a layer brings along, relative to `origin`.
+std::shared_ptr<const Shape> solid_of(const Layer& layer, const Vec3& origin) {
+  auto out = std::make_shared<Shape>(*io::read(layer.tets));
+  if (out->tets.empty())
+    throw place_error(layer.place, "layer", "a file of tets in \"tets\"", std::string("a ") + representation(*out));
+  for (Vec3& p : out->positions) p += out->origin - origin;
+  out->origin = origin;
   return out;
 }
 
@@ -211,8 +225,9 @@ bool Workspace::make(std::size_t i, const std::shared_ptr<const Shape>& base) {
     points.insert(points.end(), more.begin(), more.end());
   }
   const std::vector<Cut> cuts = cuts_of(layer, base->origin);
+  const std::shared_ptr<const Shape> solid = layer.tets.empty() ? nullptr : solid_of(layer, base->origin);
   std::shared_ptr<Deformer> deformer =
-      method.make(base, settings_of(layer, method), {points, layer.path.has_value(), cuts}, progress);
+      method.make(base, settings_of(layer, method), {points, layer.path.has_value(), cuts, solid}, progress);
   if (deformer == nullptr) return false;
   install(kept, std::move(deformer));
   kept.layer = layer;
@@ -319,15 +334,17 @@ std::optional<Workspace::Wanted> Workspace::wanted(std::size_t i, int frame, con
     rest_second = rest_of(i, second.frame);
     if (rest_first == nullptr || rest_second == nullptr) return std::nullopt;
   }
-  Wanted out{{kept.marked->fixed, {}, {}, {}}, {}, {}};
+  Wanted out{{kept.marked->fixed, {}, kept.marked->rigid, kept.marked->stiffness}, {}, {}};
   for (std::size_t h = 0; h < layer.handles.size(); ++h) {
     const std::vector<Index>& points = kept.marked->handles[h];
-    const std::vector<Vec3> now = at(points, rest);
-    out.motions.push_back(frame == first.frame
-                              ? first.handles[h]
-                              : motion_between(first.handles[h], second.handles[h], span.u, at(points, *rest_first),
-                                               at(points, *rest_second), now, rest.origin));
-    out.constraints.handles.push_back({points, targets_of(out.motions[h], now, rest.origin), {}, {}});
+    std::vector<Vec3> places = handle_places(layer.handles[h], rest.origin);
+    const std::vector<Vec3> now = at(points, places, rest);
+    out.motions.push_back(frame == first.frame ? first.handles[h]
+                                               : motion_between(first.handles[h], second.handles[h], span.u,
+                                                                at(points, places, *rest_first),
+                                                                at(points, places, *rest_second), now, rest.origin));
+    out.constraints.handles.push_back(
+        {points, targets_of(out.motions[h], now, rest.origin), std::move(places), turn_of(out.motions[h])});
     out.centres.push_back(std::accumulate(now.begin(), now.end(), Vec3(0, 0, 0)) / static_cast<double>(now.size()));
   }
   return out;

@@ -2,57 +2,23 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <algorithm>
 
 #include "deformers/graph.h"
 #include "deformers/graph_weights.h"
 #include "engine/geometry/bounds.h"
 #include "engine/geometry/skin.h"
 #include "engine/geometry/topology.h"
-#include "engine/io/io.h"
+#include "tests/deformers/botsch_sorkine.h"
 #include "tests/shared_data.h"
 
 namespace sinew {
 
 namespace {
 
+using test::Case;
+using test::output_of;
 namespace fs = std::filesystem;
-
-/// A Botsch-Sorkine case: NAME.off, NAME.sel (0 fixed, 2 handle), NAME.def (4x4 of the handle).
-struct Case {
-  std::shared_ptr<const Shape> shape;
-  Constraints constraints;
-};
-
-std::vector<double> numbers_of(const fs::path& path) {
-  std::ifstream file(path);
-  std::vector<double> out;
-  for (std::string line; std::getline(file, line);) {
-    if (line.starts_with('#')) continue;
-    std::istringstream words(line);
-    for (double x; words >> x;) out.push_back(x);
-  }
-  return out;
-}
-
-Case read_case(const fs::path& base) {
-  Case c{io::read(base.string() + ".off"), {}};
-  const std::vector<double> labels = numbers_of(base.string() + ".sel"), m = numbers_of(base.string() + ".def");
-  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> motion(m.data());
-  Handle handle;
-  for (Index i = 0; i < c.shape->size(); ++i) {
-    if (labels[i] == 0) c.constraints.fixed.push_back(i);
-    if (labels[i] != 2) continue;
-    const Vec3 p = c.shape->positions[i] + c.shape->origin;
-    handle.points.push_back(i);
-    handle.targets.push_back(motion.topLeftCorner<3, 3>() * p + motion.topRightCorner<3, 1>() - c.shape->origin);
-  }
-  c.constraints.handles.push_back(std::move(handle));
-  return c;
-}
 
 /// `count` points, each the farthest from those before, from point 0.
 std::vector<Index> farthest_points(const Shape& shape, std::size_t count) {
@@ -64,16 +30,6 @@ std::vector<Index> farthest_points(const Shape& shape, std::size_t count) {
     nodes.push_back(static_cast<Index>(std::max_element(distance.begin(), distance.end()) - distance.begin()));
   }
   return nodes;
-}
-
-/// What a command prints; empty where it fails.
-std::string output_of(const std::string& command) {
-  std::string out;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (pipe == nullptr) return out;
-  char buffer[256];
-  while (std::fgets(buffer, sizeof(buffer), pipe) != nullptr) out += buffer;
-  return pclose(pipe) == 0 ? out : std::string();
 }
 
 std::string case_name(const testing::TestParamInfo<std::string>& parameter) {
@@ -88,11 +44,9 @@ TEST_P(GraphOracle, TheSameMinimumWithTheSameNodes) {
   SHARED_DATA(data, "deform_benchmark");
   const fs::path reference = shared_folder() / "reference";
   if (!fs::exists(reference / "graph.py")) GTEST_SKIP() << "no reference implementation";
-  const std::string python = "/usr/bin/python3";
-  if (output_of(python + " -c 'import numpy, scipy; print(1)' 2>/dev/null").empty())
-    GTEST_SKIP() << "python3 with numpy and scipy is not installed";
+  if (!test::has_numpy()) GTEST_SKIP() << "python3 with numpy and scipy is not installed";
 
-  const Case c = read_case(data / GetParam());
+  const Case c = test::read_case(data / GetParam());
   GraphOptions options;
   options.given = farthest_points(*c.shape, 300);
   const auto deformer = make_graph_deformer(c.shape, options);
@@ -115,7 +69,8 @@ TEST_P(GraphOracle, TheSameMinimumWithTheSameNodes) {
   const std::string arguments = reference.string() + " " + (data / GetParam()).string() + " " +
                                 (folder / "nodes").string() + " " + (folder / "weights").string() + " " +
                                 (folder / "edges").string();
-  const std::string printed = output_of(python + " " SINEW_SOURCE_DIR "/tests/deformers/graph_oracle.py " + arguments);
+  const std::string printed =
+      output_of(test::python + std::string(" ") + SINEW_SOURCE_DIR "/tests/deformers/graph_oracle.py " + arguments);
   fs::remove_all(folder);
   int iterations = 0;
   double energy = 0;

@@ -51,7 +51,8 @@ inline std::vector<std::pair<std::string, std::string>> bad_edits() {
       {"{\"sinew\": 1, \"layers\": [@{}]}", "expected \"method\", found an object without members"},
       {"{\"sinew\": 1, \"layers\": [{\"method\": @3}]}", "expected a text, found 3"},
       {layer_with("@\"setings\": {}"),
-       "expected one of \"name\", \"off\", \"method\", \"settings\", \"frame\", \"path\", \"cuts\", \"nodes\", "
+       "expected one of \"name\", \"off\", \"method\", \"settings\", \"frame\", \"path\", \"cuts\", \"tets\", "
+       "\"nodes\", "
        "\"fixed\", \"handles\", \"rigid\", "
        "\"stiffness\", \"examples\", \"keys\", \"start\", found \"setings\""},
       {layer_with("\"settings\": {\"nodes\": @true}"), "expected a number or a text, found true"},
@@ -73,13 +74,13 @@ inline std::vector<std::pair<std::string, std::string>> bad_edits() {
       {layer_with("\"fixed\": @{\"all\": true}"), "expected an array, found an object"},
       {layer_with("\"fixed\": [@{}]"),
        "expected a selection, one of \"all\", \"indices\", \"box\", \"sphere\", \"nearest\", \"component\", "
-       "\"labels\", found an object without members"},
+       "\"labels\", \"places\", found an object without members"},
       {layer_with("\"fixed\": [@{\"boxes\": 1}]"),
        "expected a selection, one of \"all\", \"indices\", \"box\", \"sphere\", \"nearest\", \"component\", "
-       "\"labels\", found \"boxes\""},
+       "\"labels\", \"places\", found \"boxes\""},
       {layer_with("\"fixed\": [@{\"all\": true, \"component\": 1}]"),
        "expected a selection, one of \"all\", \"indices\", \"box\", \"sphere\", \"nearest\", \"component\", "
-       "\"labels\", found \"all\" and \"component\""},
+       "\"labels\", \"places\", found \"all\" and \"component\""},
       {layer_with("\"fixed\": [{\"all\": @false}]"), "expected true, found false"},
       {layer_with("\"fixed\": [{\"indices\": [0, @-1]}]"), "expected a whole number from 0 to 4294967294, found -1"},
       {layer_with("\"fixed\": [{\"indices\": [@1.5]}]"), "expected a whole number from 0 to 4294967294, found 1.5"},

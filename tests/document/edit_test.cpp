@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
 
 #include "tests/document/bad_edits.h"
 
@@ -71,6 +75,32 @@ TEST(Edit, EveryFieldOfTheSchemaIsRead) {
   EXPECT_EQ(layer.keys[1].frame, 24);
   EXPECT_EQ(layer.start.get()[0](1, 3), 0.2);
   EXPECT_EQ(layer.stiffness[0].factor, 10);
+}
+
+TEST(Edit, AMatrixMayBeInAFile) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("sinew-edit-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  const auto write = [&](const char* text) { std::ofstream(folder / "turn.def") << text; };
+  const std::string edit =
+      R"({"sinew": 1, "layers": [{"method": "tet", "handles": [{"points": {"all": true}, "matrix": "turn.def"}]}]})";
+  write("# 4x4 handle transformation matrix\n0 -1 0 3\n1 0 0 0\n0 0 1 0\n0 0 0 1\n");
+  const Project project = parse_edit((folder / "e.json").string(), edit);
+  EXPECT_EQ((*project.layers[0].handles[0].motion.matrix)(0, 1), -1);
+  EXPECT_EQ((*project.layers[0].handles[0].motion.matrix)(0, 3), 3);
+  for (const auto& [text, sentence] :
+       {std::pair("1 0 0", "16 finite numbers"), std::pair("1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 5", "the end of the file"),
+        std::pair("1 0 0 x", "16 finite numbers"),
+        std::pair("nan 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", "16 finite numbers")}) {
+    write(text);
+    try {
+      parse_edit((folder / "e.json").string(), edit);
+      ADD_FAILURE() << text;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(sentence), std::string::npos) << error.what();
+    }
+  }
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Edit, WrittenAndReadBackItIsEqualAndWrittenAgainTheSameText) {
