@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deformers/tet_decimate.h"
 #include "deformers/tet_process.h"
 #include "deformers/tet_surface.h"
+#include "deformers/tet_surface_edges.h"
 #include "engine/geometry/error.h"
 
 namespace sinew {
@@ -73,6 +75,23 @@ void keep_solid(const TetSurface& surface, const TetAnswer& answer, TetMesh& mes
     if (winding[answer.regions[t]] != 0) mesh.tets.push_back(answer.tets[t]);
 }
 
+/// Triangles of the surface that are no side of a tet.
+std::size_t lost_faces(const TetSurface& surface, const TetAnswer& answer) {
+  const auto sorted = [](Triangle corners) {
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  };
+  std::vector<Triangle> sides;
+  sides.reserve(4 * answer.tets.size());
+  for (const auto& [a, b, c, d] : answer.tets)
+    for (const Triangle& side : {Triangle{a, b, c}, Triangle{a, b, d}, Triangle{a, c, d}, Triangle{b, c, d}})
+      if (std::max({side[0], side[1], side[2]}) < surface.vertices.size()) sides.push_back(sorted(side));
+  std::sort(sides.begin(), sides.end());
+  return static_cast<std::size_t>(std::count_if(
+      surface.triangles.begin(), surface.triangles.end(),
+      [&](const Triangle& triangle) { return !std::binary_search(sides.begin(), sides.end(), sorted(triangle)); }));
+}
+
 /// Leaves out added vertices of no tet (inside a cavity).
 void drop_unused(TetMesh& mesh) {
   std::vector<Index> number(mesh.vertices.size(), 0);
@@ -91,28 +110,89 @@ void drop_unused(TetMesh& mesh) {
     for (Index& v : tet) v = number[v];
 }
 
-/// Null where progress said false.
-std::optional<TetMesh> filled(const Shape& shape, const TetSurface& surface, const TetMeshOptions& options,
-                              const TetLimits& limits, const std::function<bool(double)>& progress) {
-  const double scale = unit_scale(surface.vertices);
+struct Work {
+  const Shape& shape;
+  const TetMeshOptions& options;
+  TetLimits limits;
+  std::function<bool(double)> progress;
+  std::vector<std::string>& notes;
+};
+
+std::optional<TetAnswer> run(const Work& work, tets::Job job, const TetSurface& surface) {
   std::vector<Vec3> scaled = surface.vertices;
+  const double scale = unit_scale(surface.vertices);
   for (Vec3& p : scaled) p *= scale;
-  const auto job = options.inside ? tets::Job::FillInside : tets::Job::Fill;
-  const std::optional<TetAnswer> answer = run_tets(job, scaled, surface.triangles, limits, progress);
-  if (!answer) return std::nullopt;
-  if (answer->how != TetAnswer::How::Done || answer->tets.empty()) {
-    const std::optional<TetAnswer> why = run_tets(tets::Job::Crossings, scaled, surface.triangles, limits, progress);
-    if (!why) return std::nullopt;
-    if (!why->crossing.empty()) throw crossing_error(shape, surface, why->crossing);
-    throw InputError("expected tets, found " + (answer->why.empty() ? "none" : answer->why) + " though no faces cross");
-  }
+  std::optional<TetAnswer> answer = run_tets(job, scaled, surface.triangles, work.limits, work.progress);
+  if (answer)
+    for (Vec3& p : answer->added) p /= scale;
+  return answer;
+}
+
+/// Throws where faces cross; `why` the tets are missing is told where none do. Returns where progress said false.
+void explain(const Work& work, const TetSurface& surface, const std::string& why) {
+  const std::optional<TetAnswer> answer = run(work, tets::Job::Crossings, surface);
+  if (!answer) return;
+  if (!answer->crossing.empty()) throw crossing_error(work.shape, surface, answer->crossing);
+  const bool known = answer->how == TetAnswer::How::Done;
+  throw InputError("expected tets, found " + (why.empty() ? "none" : why) + (known ? ", though no faces cross" : ""));
+}
+
+TetMesh checked(const Work& work, const TetSurface& surface, const TetAnswer& answer) {
   TetMesh mesh;
   mesh.vertices = surface.vertices;
   mesh.points = surface.points;
-  for (const Vec3& p : answer->added) mesh.vertices.push_back(p / scale);
-  keep_solid(surface, *answer, mesh);
+  mesh.vertices.insert(mesh.vertices.end(), answer.added.begin(), answer.added.end());
+  keep_solid(surface, answer, mesh);
+  if (const std::size_t lost = lost_faces(surface, answer); lost > 0)
+    work.notes.push_back(counted(lost, "triangle", "triangles") + " of the surface cut into smaller ones");
   drop_unused(mesh);
   return mesh;
+}
+
+bool has_tets(const TetAnswer& answer) {
+  return answer.how == TetAnswer::How::Done && !answer.tets.empty();
+}
+
+/// Null where progress said false.
+std::optional<TetMesh> filled(const Work& work, const TetSurface& surface) {
+  const std::optional<TetAnswer> answer =
+      run(work, work.options.inside ? tets::Job::FillInside : tets::Job::Fill, surface);
+  if (answer && has_tets(*answer)) return checked(work, surface, *answer);
+  if (answer) explain(work, surface, answer->why);
+  return std::nullopt;
+}
+
+/// A decimated surface may cross itself; one with more vertices is tried then. Null where progress said false.
+std::optional<TetMesh> filled_decimated(const Work& work, const TetSurface& surface) {
+  const std::size_t all = surface.vertices.size();
+  std::size_t wanted = static_cast<std::size_t>(std::max(work.options.vertices, 4));
+  bool cancelled = false;
+  const auto go_on = [&] {
+    cancelled = cancelled || (work.progress && !work.progress(0));
+    return !cancelled && std::chrono::steady_clock::now() < work.limits.end;
+  };
+  std::string tried;
+  for (int attempt = 0; attempt < 5 && wanted < all; ++attempt, wanted += wanted / 2) {
+    const TetSurface coarse = decimated_surface(surface, wanted, go_on);
+    if (cancelled) return std::nullopt;
+    const std::string count = std::to_string(coarse.vertices.size());
+    if (is_closed(coarse)) {
+      const std::optional<TetAnswer> answer =
+          run(work, work.options.inside ? tets::Job::FillInside : tets::Job::Fill, coarse);
+      if (!answer) return std::nullopt;
+      if (has_tets(*answer)) {
+        work.notes.push_back(std::to_string(all) + " vertices decimated to " + count +
+                             (tried.empty() ? "" : "; to " + tried + " the faces crossed"));
+        return checked(work, coarse, *answer);
+      }
+    }
+    tried += (tried.empty() ? "" : ", ") + count;
+  }
+  const std::optional<TetAnswer> answer = run(work, tets::Job::Crossings, surface);
+  if (!answer) return std::nullopt;
+  if (!answer->crossing.empty()) throw crossing_error(work.shape, surface, answer->crossing);
+  throw InputError("expected faces that do not cross when decimated, found that they do with " + tried + " of " +
+                   std::to_string(all) + " vertices; more vertices keep them apart");
 }
 
 }  // namespace
@@ -150,12 +230,14 @@ TetMesh::Boundary TetMesh::boundary() const {
 
 std::optional<TetMesh> tetrahedralized(const Shape& shape, const TetMeshOptions& options,
                                        std::vector<std::string>& notes, const std::function<bool(double)>& progress) {
-  const auto end =
-      std::chrono::steady_clock::now() + std::chrono::duration_cast<std::chrono::steady_clock::duration>(
-                                             std::chrono::duration<double>(std::min(options.max_seconds, 1e6)));
+  const auto end = std::chrono::steady_clock::now() +
+                   std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                       std::chrono::duration<double>(options.max_seconds < 1e6 ? options.max_seconds : 1e6));
   const TetLimits limits{end, options.max_seconds, options.max_bytes};
+  const Work work{shape, options, limits, progress, notes};
   const TetSurface surface = closed_surface(shape, options.close_holes, notes);
-  return filled(shape, surface, options, limits, progress);
+  const bool small = static_cast<std::ptrdiff_t>(surface.vertices.size()) <= options.vertices;
+  return small ? filled(work, surface) : filled_decimated(work, surface);
 }
 
 TetMesh tet_mesh_of(const Shape& shape, std::vector<std::string>& notes) {

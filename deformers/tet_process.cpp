@@ -120,7 +120,8 @@ class Process {
     siginfo_t info{};
     if (waitid(P_PID, static_cast<id_t>(pid_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0) return;
     ended_ = true;
-    (info.si_code == CLD_EXITED ? code_ : signal_) = info.si_status;
+    if (info.si_pid == 0) code_ = 0;  // where the program ignores SIGCHLD: what was read decides
+    if (info.si_pid != 0) (info.si_code == CLD_EXITED ? code_ : signal_) = info.si_status;
   }
   void close_input() {
     if (in_ >= 0) close(in_);

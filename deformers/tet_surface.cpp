@@ -186,7 +186,7 @@ TetSurface closed_surface(const Shape& shape, int close_holes, std::vector<std::
   const std::size_t closed = close_holes_of(shape, close_holes, surface);
   const std::size_t turned = turn_faces(shape, surface), flat = join_flat_triangles(surface);
   check_volume(surface);
-  note(notes, welded.joined, "point lies", "points lie", "on others and was taken as one with them");
+  note(notes, welded.joined, "point lies", "points lie", "on others, taken as one with them");
   note(notes, without_area, "face", "faces", "without area left out");
   note(notes, flat, "triangle", "triangles", "without area joined with neighbours");
   note(notes, twice, "triangle", "triangles", "given more than once, and used once");

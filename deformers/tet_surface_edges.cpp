@@ -106,24 +106,6 @@ InputError open_error(const Shape& shape, const TetSurface& surface, const std::
       "; holes of up to so many edges can be closed (close_holes " + std::to_string(largest.size()) + ")");
 }
 
-/// The other triangle of each triangle's edge k (from corner k to k + 1) of a closed surface, times 3, plus its edge.
-std::vector<Index> opposite_edges(const TetSurface& surface) {
-  std::vector<Index> opposite(3 * surface.triangles.size());
-  const auto slot = [&](const Edge& edge) {
-    const Triangle& t = surface.triangles[edge.triangle];
-    for (Index k = 0; k < 3; ++k)
-      if (std::minmax(t[k], t[(k + 1) % 3]) == std::pair<const Index&, const Index&>(edge.low, edge.high))
-        return 3 * edge.triangle + k;
-    return Index{0};
-  };
-  for_each_edge(sorted_edges(surface), [&](std::span<const Edge> same) {
-    const Index a = slot(same.front()), b = slot(same.back());
-    opposite[a] = b;
-    opposite[b] = a;
-  });
-  return opposite;
-}
-
 /// The edge of a triangle without area that its other corner lies on; 3 where it has area.
 Index flat_edge(const TetSurface& surface, const Triangle& t) {
   Index longest = 0;
@@ -213,6 +195,31 @@ std::size_t turn_faces(const Shape& shape, TetSurface& surface) {
       }
   }
   return turned;
+}
+
+std::vector<Index> opposite_edges(const TetSurface& surface) {
+  std::vector<Index> opposite(3 * surface.triangles.size());
+  const auto slot = [&](const Edge& edge) {
+    const Triangle& t = surface.triangles[edge.triangle];
+    for (Index k = 0; k < 3; ++k)
+      if (std::minmax(t[k], t[(k + 1) % 3]) == std::pair<const Index&, const Index&>(edge.low, edge.high))
+        return 3 * edge.triangle + k;
+    return Index{0};
+  };
+  for_each_edge(sorted_edges(surface), [&](std::span<const Edge> same) {
+    const Index a = slot(same.front()), b = slot(same.back());
+    opposite[a] = b;
+    opposite[b] = a;
+  });
+  return opposite;
+}
+
+bool is_closed(const TetSurface& surface) {
+  bool closed = true;
+  for_each_edge(sorted_edges(surface), [&](std::span<const Edge> same) {
+    closed = closed && same.size() == 2 && same[0].rises != same[1].rises;
+  });
+  return closed;
 }
 
 std::size_t join_flat_triangles(TetSurface& surface) {

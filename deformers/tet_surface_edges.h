@@ -16,6 +16,13 @@ std::size_t close_holes_of(const Shape& shape, int longest, TetSurface& surface)
 /// each part; returns how many. Throws InputError where that cannot be (a one-sided surface).
 std::size_t turn_faces(const Shape& shape, TetSurface& surface);
 
+/// The edge opposite to each edge of a surface whose edges are in two triangles each. Edge 3 t + k runs from corner k
+/// of triangle t to the next.
+std::vector<Index> opposite_edges(const TetSurface& surface);
+
+/// Whether every edge is in two triangles that run through it in opposite directions.
+bool is_closed(const TetSurface& surface);
+
 /// A triangle without area whose corners are in different places lies on an edge: that edge is cut at the corner
 /// between and the triangle given up, which keeps the surface closed. Returns how many; throws InputError where it
 /// cannot be.

@@ -37,7 +37,7 @@ const std::vector<Layer>& layers() {
 const std::map<std::string, std::vector<std::string>>& third_party() {
   static const std::map<std::string, std::vector<std::string>> table{
       {"flann/", {"engine/geometry/nearest.cpp"}},
-      {"OpenMesh/", {"deformers/graph_simplify.cpp"}},
+      {"OpenMesh/", {"deformers/decimate.cpp"}},
       {"tetgen.h", {"apps/tets/main.cpp"}},
       {"metis.h", {"deformers/sparse_cholesky_symbolic.cpp"}},
       {"lzf.h", {"engine/io/pcd.cpp"}},
