@@ -143,6 +143,7 @@ void print_text(const Info& info) {
                                                    : fmt::format("{} to {}", info.least_points, info.most_points)) +
                 (info.not_finite > 0 ? fmt::format(" ({} not finite)", info.not_finite) : ""));
   print_row("faces", std::to_string(info.input.faces));
+  if (info.input.tets > 0) print_row("tets", std::to_string(info.input.tets));
   print_row("components", std::to_string(info.input.components));
   print_row("frames", info.frames.size() == 1 ? "1"
                                               : fmt::format("{}: {}, {} a second", info.frames.size(),

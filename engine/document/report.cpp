@@ -100,13 +100,14 @@ void add_frame(LayerReport& all, const LayerReport& frame) {
 }
 
 InputReport report_of(const Shape& input) {
-  return {representation(input), input.size(), input.faces.size(), connected_components(input).count, 1};
+  return {representation(input), input.size(), input.faces.size(), input.tets.size(), connected_components(input).count, 1};
 }
 
 void write_members(JsonWriter& out, const InputReport& input) {
   member(out, "representation", input.representation);
   member(out, "points", input.points);
   member(out, "faces", input.faces);
+  member(out, "tets", input.tets);
   member(out, "components", input.components);
   member(out, "frames", input.frames);
 }

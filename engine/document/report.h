@@ -13,7 +13,7 @@ namespace sinew::document {
 
 struct InputReport {
   std::string representation;
-  std::size_t points = 0, faces = 0, components = 0, frames = 1;
+  std::size_t points = 0, faces = 0, tets = 0, components = 0, frames = 1;
 };
 /// Counts components: seconds for a scan of many million points.
 InputReport report_of(const Shape& input);

@@ -48,6 +48,7 @@ Sequence still(std::shared_ptr<const Shape> shape) {
 
 const char* representation(const Shape& shape) {
   if (!shape.parts.empty()) return "scan set";
+  if (!shape.tets.empty()) return "solid mesh";
   if (shape.faces.empty()) return "point cloud";
   std::vector<bool> used(shape.size(), false);
   for (const Index p : shape.faces.points) {

@@ -76,11 +76,14 @@ void join_near_points(std::span<const Vec3> positions, const std::function<void(
 
 Components connected_components(const Shape& shape) {
   UnionFind sets(shape.size());
-  if (shape.faces.empty()) join_near_points(shape.positions, [&](Index a, Index b) { sets.join(a, b); });
+  if (shape.faces.empty() && shape.tets.empty())
+    join_near_points(shape.positions, [&](Index a, Index b) { sets.join(a, b); });
   for (std::size_t f = 0; f < shape.faces.size(); ++f) {
     const auto corners = shape.faces[f];
     for (const Index p : corners) sets.join(corners[0], p);
   }
+  for (const Tet& tet : shape.tets)
+    for (const Index p : tet) sets.join(tet[0], p);
   Components out;
   out.of_point.assign(shape.size(), Components::none);
   for (Index i = 0; i < shape.size(); ++i) {

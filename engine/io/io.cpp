@@ -9,6 +9,7 @@
 #include "engine/io/gltf.h"
 #include "engine/io/input_file.h"
 #include "engine/io/mdd.h"
+#include "engine/io/medit.h"
 #include "engine/io/obj.h"
 #include "engine/io/off.h"
 #include "engine/io/output_file.h"
@@ -17,6 +18,7 @@
 #include "engine/io/ply.h"
 #include "engine/io/scan_set.h"
 #include "engine/io/stl.h"
+#include "engine/io/text_patch.h"
 #include "engine/io/vtk.h"
 #include "engine/io/vtp.h"
 #include "engine/io/xyz.h"
@@ -24,6 +26,12 @@
 namespace sinew::io {
 
 namespace {
+
+/// A format that holds tets.
+Format solid(Format format) {
+  format.tets = true;
+  return format;
+}
 
 /// A row is a format: its reader and writer are all that is known of it here.
 const std::vector<Format>& table() {
@@ -55,6 +63,11 @@ const std::vector<Format>& table() {
        "XML, not compressed; points, data of points, polygons; everything else is kept",
        read_vtp,
        write_vtu},
+      solid({"Medit",
+             {"mesh"},
+             "text; points, faces, tets, labels of points; everything else is kept",
+             read_medit,
+             write_medit}),
       {"Scan set", {"conf"}, "scans in files of their own and the pose of each, as Stanford's", read_scan_set, nullptr},
       {"PC2", {"pc2"}, "frames of points, with their start and step", read_pc2, write_pc2, open_pc2, create_pc2},
       {"MDD", {"mdd"}, "frames of points, with their times", read_mdd, write_mdd, open_mdd, create_mdd},
@@ -71,10 +84,7 @@ std::string lower(std::string text) {
 }
 
 /// Several files, all of them ready before the first is written.
-WriteReport write_files(const std::filesystem::path& folder, const std::string& conf_name, const Shape& shape,
-                        bool force) {
-  WriteReport report;
-  const std::vector<NamedBytes> files = scan_set_files(shape, conf_name, report);
+void save_files(const std::filesystem::path& folder, const std::vector<NamedBytes>& files, bool force) {
   for (const NamedBytes& file : files) refuse_existing((folder / file.name).string(), force);
   for (const NamedBytes& file : files) {
     const std::filesystem::path path = folder / file.name;
@@ -84,7 +94,6 @@ WriteReport write_files(const std::filesystem::path& folder, const std::string& 
       throw file_error(path.parent_path().string(), "a folder that can be made", sinew::quoted(error.message()));
     save_bytes(path.string(), file.bytes, force);
   }
-  return report;
 }
 
 /// The scans beside the .conf.
@@ -92,7 +101,9 @@ WriteReport write_set(const std::string& path, const Shape& shape, bool force) {
   if (path == "-") throw file_error(path, "a folder for the files of a scan set", "standard output");
   if (shape.parts.empty()) throw file_error(path, "a scan set to write", std::string("a ") + representation(shape));
   const std::filesystem::path p(path);
-  return write_files(p.parent_path(), p.filename().string(), shape, force);
+  WriteReport report;
+  save_files(p.parent_path(), scan_set_files(shape, p.filename().string(), report), force);
+  return report;
 }
 
 }  // namespace
@@ -136,6 +147,24 @@ void save_bytes(const std::string& path, std::span<const std::byte> bytes, bool 
   out.commit();
 }
 
+void report_lost_tets(const Format& format, std::size_t tets, WriteReport& report) {
+  if (tets > 0 && !format.tets)
+    report.lost.push_back(format.name + " cannot hold " + counted(tets, "tet", "tets") + ".");
+}
+
+std::vector<NamedBytes> files_of(const Format& format, const std::string& path, const Shape& shape,
+                                 WriteReport& report) {
+  std::vector<NamedBytes> files;
+  files.push_back({path, format.write(path, shape, report)});
+  report_lost_tets(format, shape.tets.size(), report);
+  if (format.write_beside == nullptr) return files;
+  for (NamedBytes& file : format.write_beside(path, shape)) files.push_back(std::move(file));
+  if (path == "-" && files.size() > 1)
+    throw file_error(path, "a name for the " + std::to_string(files.size()) + " files of " + format.name,
+                     "standard output");
+  return files;
+}
+
 std::shared_ptr<const Shape> read(const std::string& path, const ReadOptions& options, const std::string& as) {
   const Format& format = format_of(path, as);
   std::vector<std::byte> bytes = load_bytes(path);
@@ -150,13 +179,19 @@ WriteReport write(const std::string& path, const Shape& shape, bool force, const
   if (format.write == nullptr) return write_set(path, shape, force);
   refuse_existing(path, force);
   WriteReport report;
-  save_bytes(path, format.write(path, shape, report), force);
+  const std::vector<NamedBytes> files = files_of(format, path, shape, report);
+  if (files.size() == 1)
+    save_bytes(path, files.front().bytes, force);
+  else
+    save_files("", files, force);
   return report;
 }
 
 WriteReport write_parts(const std::string& folder, const Shape& shape, bool force) {
   if (shape.parts.empty()) throw file_error(folder, "a scan set to write", std::string("a ") + representation(shape));
-  return write_files(folder, "", shape, force);
+  WriteReport report;
+  save_files(folder, scan_set_files(shape, "", report), force);
+  return report;
 }
 
 }  // namespace sinew::io

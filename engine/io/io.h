@@ -29,6 +29,12 @@ class ByteSource;
 class FrameWriter;
 struct FrameWriterOptions;
 
+/// A file to write: a name relative to a folder, and its bytes.
+struct NamedBytes {
+  std::string name;
+  std::vector<std::byte> bytes;
+};
+
 struct Format {
   std::string name;                     ///< "PLY"
   std::vector<std::string> extensions;  ///< lower case, without the dot
@@ -41,6 +47,9 @@ struct Format {
   /// gives the first. Origins of the frames are set.
   Sequence (*open_frames)(std::shared_ptr<const ByteSource> bytes, const ReadOptions& options) = nullptr;
   std::unique_ptr<FrameWriter> (*create_frames)(const std::string& path, const FrameWriterOptions& options) = nullptr;
+  bool tets = false;  ///< holds Shape::tets
+  /// Where a shape takes more than one file: those beside `path`, with their paths. Null where one holds it all.
+  std::vector<NamedBytes> (*write_beside)(const std::string& path, const Shape& shape) = nullptr;
 };
 
 std::span<const Format> formats();
@@ -51,12 +60,20 @@ const Format& format_of(const std::string& path);
 /// The same, of a path or, where that is "-", of `as`.
 const Format& format_of(const std::string& path, const std::string& as);
 
+/// All files that hold `shape`, first that of `path`; `report` names what the format cannot hold. Not for a format
+/// whose `write` is null.
+std::vector<NamedBytes> files_of(const Format& format, const std::string& path, const Shape& shape,
+                                 WriteReport& report);
+/// The sentence that tets are not written, where the shape has some and the format holds none.
+void report_lost_tets(const Format& format, std::size_t tets, WriteReport& report);
+
 /// Reads a file ("-" with `as` an extension: standard input). Sets the shape's origin. Throws InputError or Cancelled.
 std::shared_ptr<const Shape> read(const std::string& path, const ReadOptions& options = {}, const std::string& as = "");
 
 /// Writes whole or not at all: a temporary file beside `path`, fsync, rename. An existing file is refused unless
 /// `force`; devices and pipes are written as they are.
-/// "-" with `as` an extension: standard output. A .conf is written with its scans beside it, as by write_parts.
+/// "-" with `as` an extension: standard output. A .conf is written with its scans beside it, as by write_parts; so are
+/// the files of TetGen.
 WriteReport write(const std::string& path, const Shape& shape, bool force = false, const std::string& as = "");
 
 /// A scan set back to one file a scan, each in its own frame and under its own name, in `folder` (made if missing),

@@ -101,6 +101,10 @@ void append_scan(Shape& shape, const std::string& name, const Entry& entry, cons
     for (Index& corner : corners) corner += part.first;
     shape.faces.add(corners);
   }
+  for (Tet tet : own.tets) {
+    for (Index& corner : tet) corner += part.first;
+    shape.tets.push_back(tet);
+  }
   for (const std::string& note : own.notes) shape.notes.push_back(fmt::format("{}: {}", name, note));
   shape.parts.push_back(std::move(part));
 }

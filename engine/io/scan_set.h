@@ -20,12 +20,6 @@ namespace sinew::io {
 
 Shape read_scan_set(const std::string& path, std::vector<std::byte> bytes, const ReadOptions& options);
 
-/// A file to write: a name relative to a folder, and its bytes.
-struct NamedBytes {
-  std::string name;
-  std::vector<std::byte> bytes;
-};
-
 /// The scans, each in its own frame and format, and last the .conf, named `conf_name` or, where that is empty, as it
 /// was read. A point that is where it was in the world has the bits of its file. A scan whose path leads out of the
 /// folder is named by its last part. Throws InputError where the shape has no parts or two would have one name.

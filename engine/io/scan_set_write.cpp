@@ -90,6 +90,14 @@ Shape new_scan(const Shape& shape, const Part& part) {
     for (Index& corner : corners) corner -= part.first;
     out.faces.add(corners);
   }
+  for (Tet tet : shape.tets) {
+    const bool inside = std::all_of(tet.begin(), tet.end(), [&part](Index corner) {
+      return corner >= part.first && corner - part.first < part.count;
+    });
+    if (!inside) continue;
+    for (Index& corner : tet) corner -= part.first;
+    out.tets.push_back(tet);
+  }
   return out;
 }
 
@@ -162,7 +170,11 @@ std::vector<NamedBytes> scan_set_files(const Shape& shape, const std::string& co
     const Format& format = format_of(name);
     if (format.write == nullptr) throw file_error(name, "a format of one scan", format.name);
     WriteReport own;
-    files.push_back({name, format.write(name, scan, own)});
+    for (NamedBytes& file : files_of(format, name, scan, own)) {
+      if (file.name != name && !taken.insert(file.name).second)
+        throw file_error(file.name, "another name for each scan to write", "it twice");
+      files.push_back(std::move(file));
+    }
     for (const std::string& sentence : own.lost) report.lost.push_back(fmt::format("{}: {}", name, sentence));
     names.push_back(name);
   }

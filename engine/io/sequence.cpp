@@ -94,6 +94,29 @@ class StillWriter : public FrameWriter {
   WriteReport report_;
 };
 
+/// Frames in a file of a format that holds no tets: says so where a frame has some.
+class TellingWriter : public FrameWriter {
+ public:
+  TellingWriter(const Format& format, std::unique_ptr<FrameWriter> writer)
+      : format_(format), writer_(std::move(writer)) {}
+  void write(int frame, const Shape& shape) override {
+    WriteReport report;
+    report_lost_tets(format_, shape.tets.size(), report);
+    losses_.add(frame, std::move(report));
+    writer_->write(frame, shape);
+  }
+  WriteReport commit() override {
+    WriteReport report = writer_->commit();
+    for (std::string& sentence : losses_.merged().lost) report.lost.push_back(std::move(sentence));
+    return report;
+  }
+
+ private:
+  const Format& format_;
+  std::unique_ptr<FrameWriter> writer_;
+  FrameLosses losses_;
+};
+
 }  // namespace
 
 bool names_frames(const std::string& path, const std::string& as) {
@@ -137,7 +160,8 @@ std::unique_ptr<FrameWriter> create_frames(const std::string& path, const FrameW
   if (std::optional<FramePattern> pattern = frame_pattern(path))
     return std::make_unique<RunWriter>(std::move(*pattern), options);
   const Format& format = format_of(path, options.as);
-  if (format.create_frames != nullptr) return format.create_frames(path, options);
+  if (format.create_frames != nullptr)
+    return std::make_unique<TellingWriter>(format, format.create_frames(path, options));
   if (options.frames.size() > 1)
     throw file_error(path,
                      "a name with a place for the frame, like name.####.ply, for " +

@@ -21,6 +21,11 @@ using WriteFunction = std::vector<std::byte> (*)(const std::string&, const Shape
 inline void check_sound(const Shape& shape) {
   CHECK(shape.faces.offsets.front() == 0 && shape.faces.offsets.back() == shape.faces.points.size());
   for (const Index p : shape.faces.points) CHECK(p < shape.size(), p);
+  for (const Tet& tet : shape.tets)
+    for (std::size_t c = 0; c < 4; ++c) {
+      CHECK(tet[c] < shape.size(), tet[c]);
+      for (std::size_t d = 0; d < c; ++d) CHECK(tet[c] != tet[d], tet[c]);
+    }
   for (const Attribute& attribute : shape.attributes) {
     CHECK(attribute.components > 0 && attribute.fields.size() == static_cast<std::size_t>(attribute.components));
     if (attribute.per_point()) {
@@ -62,6 +67,7 @@ inline void fuzz_format(ReadFunction read, WriteFunction write, std::span<const 
   for (std::size_t i = 0; i < moved.size(); i += 2) moved.positions[i] += Vec3(0.1, -1000.0 / 3, 1e7);
   const Shape again = read_again(read, write, moved);
   CHECK(again.faces.offsets == shape.faces.offsets && again.faces.points == shape.faces.points);
+  CHECK(again.tets == shape.tets);
   CHECK(again.attributes.size() == shape.attributes.size());
 
   moved.content = nullptr;

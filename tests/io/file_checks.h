@@ -80,6 +80,11 @@ inline void expect_sound(const Shape& shape, const std::string& path) {
   EXPECT_EQ(shape.faces.offsets.back(), shape.faces.points.size()) << path;
   EXPECT_TRUE(std::is_sorted(shape.faces.offsets.begin(), shape.faces.offsets.end())) << path;
   for (const Index p : shape.faces.points) ASSERT_LT(p, shape.size()) << path;
+  for (const Tet& tet : shape.tets)
+    for (std::size_t c = 0; c < 4; ++c) {
+      ASSERT_LT(tet[c], shape.size()) << path;
+      for (std::size_t d = 0; d < c; ++d) ASSERT_NE(tet[c], tet[d]) << path;
+    }
   for (const Attribute& attribute : shape.attributes) {
     ASSERT_GT(attribute.components, 0) << path;
     EXPECT_EQ(attribute.fields.size(), static_cast<std::size_t>(attribute.components)) << path << ' ' << attribute.name;
@@ -121,6 +126,7 @@ inline void expect_exact(ReadFunction read, WriteFunction write, const std::stri
   const Shape after = read_text(read, write_text(write, moved), path);
   ASSERT_EQ(after.size(), before.size()) << path;
   EXPECT_EQ(after.faces.points, before.faces.points) << path;
+  EXPECT_EQ(after.tets, before.tets) << path;
   // A text file with moved points can need doubles where floats did before, so that others are compared as floats.
   const bool as_float = before.position_type == Type::Float32;
   for (std::size_t i = 0; i < after.size(); ++i) {

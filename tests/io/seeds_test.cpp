@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "engine/io/bgeo.h"
+#include "engine/io/medit.h"
 #include "engine/io/obj.h"
 #include "engine/io/off.h"
 #include "engine/io/pcd.h"
@@ -49,6 +50,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Target{"xyz", fuzz<read_xyz, write_xyz>}, Target{"csv", fuzz<read_csv, write_csv>},
                     Target{"pc2", fuzz_pc2}, Target{"mdd", fuzz_mdd}, Target{"gltf", fuzz_gltf},
                     Target{"pcd", fuzz<read_pcd, write_pcd>}, Target{"vtp", fuzz_vtp},
-                    Target{"bgeo", fuzz<read_bgeo, write_bgeo>}, Target{"vtk", fuzz<read_vtk, write_vtk>}));
+                    Target{"bgeo", fuzz<read_bgeo, write_bgeo>}, Target{"vtk", fuzz<read_vtk, write_vtk>},
+                    Target{"medit", fuzz<read_medit, write_medit>}));
 
 }  // namespace sinew::io
