@@ -100,7 +100,8 @@ void add_frame(LayerReport& all, const LayerReport& frame) {
 }
 
 InputReport report_of(const Shape& input) {
-  return {representation(input), input.size(), input.faces.size(), input.tets.size(), connected_components(input).count, 1};
+  return {
+      representation(input), input.size(), input.faces.size(), input.tets.size(), connected_components(input).count, 1};
 }
 
 void write_members(JsonWriter& out, const InputReport& input) {

@@ -89,7 +89,8 @@ struct Sequence {
 /// A sequence of one frame, number 1.
 Sequence still(std::shared_ptr<const Shape> shape);
 
-/// "point cloud", "scan set", "solid mesh" (tets), "mesh" (faces that share points) or "polygon soup" (faces that share none).
+/// "point cloud", "scan set", "solid mesh" (tets), "mesh" (faces that share points) or "polygon soup" (faces that share
+/// none).
 const char* representation(const Shape& shape);
 
 }  // namespace sinew

@@ -7,6 +7,7 @@
 #include "engine/io/bgeo.h"
 #include "engine/io/bytes.h"
 #include "engine/io/gltf.h"
+#include "engine/io/gmsh.h"
 #include "engine/io/input_file.h"
 #include "engine/io/mdd.h"
 #include "engine/io/medit.h"
@@ -18,6 +19,7 @@
 #include "engine/io/ply.h"
 #include "engine/io/scan_set.h"
 #include "engine/io/stl.h"
+#include "engine/io/tetgen.h"
 #include "engine/io/text_patch.h"
 #include "engine/io/vtk.h"
 #include "engine/io/vtp.h"
@@ -31,6 +33,12 @@ namespace {
 Format solid(Format format) {
   format.tets = true;
   return format;
+}
+
+/// A format of several files that holds tets.
+Format solid(Format format, std::vector<NamedBytes> (*write_beside)(const std::string&, const Shape&)) {
+  format.write_beside = write_beside;
+  return solid(std::move(format));
 }
 
 /// A row is a format: its reader and writer are all that is known of it here.
@@ -68,6 +76,15 @@ const std::vector<Format>& table() {
              "text; points, faces, tets, labels of points; everything else is kept",
              read_medit,
              write_medit}),
+      solid({"TetGen nodes", {"node"}, "text; points, with the .ele and .face beside it", read_node, write_node},
+            beside_node),
+      solid({"TetGen", {"ele"}, "text; tets, with the .node and .face beside it; all is kept", read_ele, write_ele},
+            beside_ele),
+      solid({"Gmsh",
+             {"msh"},
+             "text of versions 1 and 2; points, faces, tets; everything else is kept",
+             read_gmsh,
+             write_gmsh}),
       {"Scan set", {"conf"}, "scans in files of their own and the pose of each, as Stanford's", read_scan_set, nullptr},
       {"PC2", {"pc2"}, "frames of points, with their start and step", read_pc2, write_pc2, open_pc2, create_pc2},
       {"MDD", {"mdd"}, "frames of points, with their times", read_mdd, write_mdd, open_mdd, create_mdd},

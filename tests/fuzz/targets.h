@@ -13,6 +13,7 @@
 #include "engine/io/ply.h"
 #include "engine/io/scan_set.h"
 #include "engine/io/stl.h"
+#include "engine/io/tetgen.h"
 #include "engine/io/values.h"
 #include "engine/io/vtk_array.h"
 #include "engine/io/vtp.h"
@@ -62,6 +63,40 @@ inline std::vector<std::byte> write_vtk_xml(const std::string& path, const Shape
 
 inline void fuzz_vtp(std::span<const std::uint8_t> data) {
   fuzz_format(read_vtp, write_vtk_xml, data);
+}
+
+/// The three files of TetGen in one: behind a line "%ele" the .ele, behind "%face" the .face.
+inline void fuzz_tetgen(std::span<const std::uint8_t> data) {
+  const std::string_view text(reinterpret_cast<const char*>(data.data()), data.size());
+  const auto part = [&text](std::string_view mark) -> std::optional<NamedBytes> {
+    const std::size_t at = text.find(mark);
+    if (at == std::string_view::npos) return std::nullopt;
+    const std::string_view own = text.substr(at + mark.size(), text.find("\n%", at + mark.size()) - at - mark.size());
+    const auto bytes = std::as_bytes(std::span(own));
+    return NamedBytes{"fuzz", {bytes.begin(), bytes.end()}};
+  };
+  const auto node = std::as_bytes(std::span(text.substr(0, text.find("\n%"))));
+  try {
+    const std::optional<NamedBytes> ele = part("\n%ele"), face = part("\n%face");
+    Shape shape = read_tetgen({{"fuzz", {node.begin(), node.end()}}, ele, face}, {});
+    check_sound(shape);
+    set_origin(shape);
+    WriteReport report;
+    CHECK(std::ranges::equal(write_node("fuzz.node", shape, report), node));
+    const std::vector<NamedBytes> files = beside_node("fuzz.node", shape);
+    CHECK(files.size() == std::size_t{ele.has_value()} + std::size_t{face.has_value()}, files.size());
+    if (ele) CHECK(files.front().bytes == ele->bytes);
+    if (face) CHECK(files.back().bytes == face->bytes);
+    shape.content = nullptr;
+    const std::vector<NamedBytes> others = beside_ele("new.ele", shape);
+    const NamedBytes tets{"new.ele", write_ele("new.ele", shape, report)};
+    const Shape again =
+        read_tetgen({others.front(), tets, others.size() > 1 ? std::optional(others.back()) : std::nullopt}, {});
+    check_sound(again);
+    CHECK(again.size() == shape.size() && again.tets == shape.tets && again.faces.points == shape.faces.points);
+    CHECK(again.attributes.size() == shape.attributes.size());
+  } catch (const InputError&) {
+  }
 }
 
 /// A folder with two scans, "a.ply" and "b.obj", for the .conf files of the fuzzer; made anew for each process.

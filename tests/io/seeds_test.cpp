@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "engine/io/bgeo.h"
+#include "engine/io/gmsh.h"
 #include "engine/io/medit.h"
 #include "engine/io/obj.h"
 #include "engine/io/off.h"
@@ -51,6 +52,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Target{"pc2", fuzz_pc2}, Target{"mdd", fuzz_mdd}, Target{"gltf", fuzz_gltf},
                     Target{"pcd", fuzz<read_pcd, write_pcd>}, Target{"vtp", fuzz_vtp},
                     Target{"bgeo", fuzz<read_bgeo, write_bgeo>}, Target{"vtk", fuzz<read_vtk, write_vtk>},
+                    Target{"tetgen", fuzz_tetgen}, Target{"gmsh", fuzz<read_gmsh, write_gmsh>},
                     Target{"medit", fuzz<read_medit, write_medit>}));
 
 }  // namespace sinew::io
