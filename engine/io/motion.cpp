@@ -1,0 +1,64 @@
+#include "engine/io/motion.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "engine/io/bytes.h"
+#include "engine/io/c3d.h"
+#include "engine/io/io.h"
+
+namespace sinew::io {
+
+namespace {
+
+const std::vector<MotionFormat>& table() {
+  static const std::vector<MotionFormat> rows{
+      {"C3D", "c3d", "markers; integers and floats of Intel, DEC and MIPS; analog channels are skipped", read_c3d},
+  };
+  return rows;
+}
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  return extension;
+}
+
+}  // namespace
+
+std::span<const MotionFormat> motion_formats() {
+  return table();
+}
+
+const MotionFormat* motion_format_of(const std::string& path) {
+  const std::string extension = extension_of(path);
+  const auto row =
+      std::find_if(table().begin(), table().end(), [&](const auto& f) { return "." + f.extension == extension; });
+  return row == table().end() ? nullptr : &*row;
+}
+
+Trajectories read_motion(const std::string& path) {
+  const MotionFormat* format = motion_format_of(path);
+  if (format == nullptr) {
+    std::string known;
+    for (const MotionFormat& f : table()) known += (known.empty() ? "." : ", .") + f.extension;
+    const std::string extension = extension_of(path);
+    throw file_error(path, "a name that ends in " + known,
+                     extension.empty() ? "no extension" : sinew::quoted(extension));
+  }
+  const std::vector<std::byte> bytes = load_bytes(path);
+  refuse_lfs_pointer(path, bytes, format->name);
+  return format->read(path, bytes);
+}
+
+void check_places(const std::string& path, std::size_t frames, std::size_t points, std::size_t bytes) {
+  constexpr std::size_t per_byte = 4;  // a point that is there takes 3 bytes and more of a row
+  if (frames > 0 && points > per_byte * bytes / frames)
+    throw file_error(
+        path,
+        "at most " + std::to_string(per_byte * bytes) + " places of points in " + std::to_string(bytes) + " bytes",
+        std::to_string(frames) + " frames of " + std::to_string(points) + " points");
+}
+
+}  // namespace sinew::io

@@ -1,0 +1,60 @@
+#pragma once
+/// Motion capture: named points over frames, read from C3D, TRC, BVH and CSV by a table of their own. Files of shapes
+/// are in io.h.
+
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/geometry/shape.h"
+
+namespace sinew::io {
+
+/// Markers, or the joints and ends of a skeleton. Lengths and axes are the file's.
+struct Trajectories {
+  std::vector<std::string> names;         ///< of the points; as the file has them, so one may stand twice
+  int first_frame = 1;                    ///< number of frames[0]
+  double rate = 0;                        ///< frames a second; 0 where the file does not say
+  std::string unit;                       ///< "mm", "m", ...; empty where the file does not say
+  std::vector<std::vector<Vec3>> frames;  ///< frames[f][point]; all three NaN where the point was not seen
+  std::vector<std::string> notes;         ///< sentences on what was odd in the file
+
+  /// Of a skeleton only:
+  std::vector<std::array<int, 2>> bones;  ///< pairs of points (parent, child)
+  std::vector<Vec3> rest;                 ///< of each point where all channels are zero
+  /// transforms[f][point] takes what hangs on the point from the rest to the frame: x' = A x + t with [A t], of
+  /// coordinates of the file's space. An end turns with its joint.
+  std::vector<std::vector<Eigen::Matrix<double, 3, 4>>> transforms;
+};
+
+inline bool seen(const Vec3& p) {
+  return p.allFinite();
+}
+inline const Vec3 not_seen = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+
+struct MotionFormat {
+  std::string name;       ///< "C3D"
+  std::string extension;  ///< lower case, without the dot
+  std::string help;       ///< what of the format is read, one line
+  /// Parses the bytes of a file; `path` is only for messages. Throws InputError.
+  Trajectories (*read)(const std::string& path, std::span<const std::byte> bytes);
+};
+
+std::span<const MotionFormat> motion_formats();
+
+/// By the extension; null where it is none of motion.
+const MotionFormat* motion_format_of(const std::string& path);
+
+/// There is at least one frame of at least one point, and each frame has as many points as there are names. Throws
+/// InputError.
+Trajectories read_motion(const std::string& path);
+
+/// Throws InputError where a text of so many bytes cannot hold so many points: a long list of names and many rows that
+/// are almost empty would take memory by their product.
+void check_places(const std::string& path, std::size_t frames, std::size_t points, std::size_t bytes);
+
+}  // namespace sinew::io
