@@ -1,8 +1,10 @@
 #include "engine/io/motion.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
+#include "engine/io/bvh.h"
 #include "engine/io/bytes.h"
 #include "engine/io/c3d.h"
 #include "engine/io/io.h"
@@ -14,6 +16,8 @@ namespace {
 const std::vector<MotionFormat>& table() {
   static const std::vector<MotionFormat> rows{
       {"C3D", "c3d", "markers; integers and floats of Intel, DEC and MIPS; analog channels are skipped", read_c3d},
+      {"BVH", "bvh", "skeletons; any channels in any order; places and turns of joints by forward kinematics",
+       read_bvh},
   };
   return rows;
 }
@@ -50,6 +54,12 @@ Trajectories read_motion(const std::string& path) {
   const std::vector<std::byte> bytes = load_bytes(path);
   refuse_lfs_pointer(path, bytes, format->name);
   return format->read(path, bytes);
+}
+
+double rate_of_step(double seconds) {
+  if (!(seconds > 0) || !std::isfinite(1 / seconds)) return 0;
+  const double rate = 1 / seconds, whole = std::round(rate);
+  return std::abs(rate - whole) < 2e-5 * whole ? whole : rate;
 }
 
 void check_places(const std::string& path, std::size_t frames, std::size_t points, std::size_t bytes) {

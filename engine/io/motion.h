@@ -53,6 +53,9 @@ const MotionFormat* motion_format_of(const std::string& path);
 /// InputError.
 Trajectories read_motion(const std::string& path);
 
+/// Frames a second of a step that a file has in few digits: 0.00833333 is 120. 0 where it is no step.
+double rate_of_step(double seconds);
+
 /// Throws InputError where a text of so many bytes cannot hold so many points: a long list of names and many rows that
 /// are almost empty would take memory by their product.
 void check_places(const std::string& path, std::size_t frames, std::size_t points, std::size_t bytes);

@@ -35,6 +35,16 @@ class TextCursor {
     return {text_.substr(begin, at_ - begin), begin, line_, static_cast<std::int64_t>(begin - line_begin_) + 1};
   }
 
+  /// As token(), but each of `marks` is a token of its own, with blanks around it or not.
+  Token word(std::string_view marks) {
+    while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
+    const std::size_t begin = at_;
+    const auto marked = [&](std::size_t i) { return marks.find(text_[i]) != std::string_view::npos; };
+    while (at_ < text_.size() && !is_blank(text_[at_]) && !is_end(text_[at_]) && !marked(at_)) ++at_;
+    if (at_ == begin && at_ < text_.size() && marked(at_)) ++at_;
+    return {text_.substr(begin, at_ - begin), begin, line_, static_cast<std::int64_t>(begin - line_begin_) + 1};
+  }
+
   bool at_line_end() const { return at_end() || is_end(text_[at_]); }
   /// Goes to byte `at`; within the present line, or places in messages are wrong from here on.
   void seek(std::size_t at) { at_ = at; }

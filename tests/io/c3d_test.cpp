@@ -278,7 +278,9 @@ TEST(C3d, RealFilesAreRead) {
           EXPECT_LT(p.norm(), 20000) << real.name;
         }
     EXPECT_GT(3 * shown, real.points * real.frames) << real.name;
-    if (real.name == std::string("Gait.c3d")) EXPECT_EQ(shown, 6389u);  // samples whose fourth word is not negative
+    if (real.name == std::string("Gait.c3d")) {
+      EXPECT_EQ(shown, 6389u);  // samples whose fourth word is not negative
+    }
   }
 }
 
