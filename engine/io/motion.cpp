@@ -8,6 +8,8 @@
 #include "engine/io/bytes.h"
 #include "engine/io/c3d.h"
 #include "engine/io/io.h"
+#include "engine/io/marker_csv.h"
+#include "engine/io/trc.h"
 
 namespace sinew::io {
 
@@ -16,8 +18,10 @@ namespace {
 const std::vector<MotionFormat>& table() {
   static const std::vector<MotionFormat> rows{
       {"C3D", "c3d", "markers; integers and floats of Intel, DEC and MIPS; analog channels are skipped", read_c3d},
+      {"TRC", "trc", "markers in text with tabs between", read_trc},
       {"BVH", "bvh", "skeletons; any channels in any order; places and turns of joints by forward kinematics",
        read_bvh},
+      {"CSV of markers", "csv", "markers; columns NAME.x, NAME.y, NAME.z, frame, time", read_marker_csv},
   };
   return rows;
 }
