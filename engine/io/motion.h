@@ -53,6 +53,39 @@ const MotionFormat* motion_format_of(const std::string& path);
 /// InputError.
 Trajectories read_motion(const std::string& path);
 
+/// Frames in which a point was not seen, by their numbers.
+struct Gap {
+  int first = 0, last = 0;
+  bool bridged = false;
+};
+
+struct GapReport {
+  struct Marker {
+    std::string name;
+    std::vector<Gap> gaps;                  ///< ascending
+    std::size_t bridged = 0, released = 0;  ///< frames
+  };
+  std::vector<Marker> markers;            ///< as many as there are names
+  std::size_t bridged = 0, released = 0;  ///< frames of all markers
+
+  /// One for each marker that has gaps: "L_ARM: 5 frames bridged (10-12, 20-21), 30 released (40-69)."
+  std::vector<std::string> sentences() const;
+};
+
+/// The gaps as they are, all of them released.
+GapReport gaps_of(const Trajectories& motion);
+
+/// Fills gaps of up to `longest` frames between two frames a < b in which the point was seen, by the cubic Hermite
+/// polynomial of their positions p and velocities v (per frame):
+///   p(s) = (2s^3 - 3s^2 + 1) p_a + (s^3 - 2s^2 + s) h v_a + (3s^2 - 2s^3) p_b + (s^3 - s^2) h v_b,
+///   h = b - a, s = (f - a) / h,
+///   v_a = (3 p_a - 4 p_{a-1} + p_{a-2}) / 2 where both frames before a were seen, p_a - p_{a-1} where one was,
+///         (p_b - p_a) / h where none was; v_b likewise of the frames after b.
+/// So a motion that is quadratic in time comes back exactly. Velocities come from frames that were seen, never from
+/// filled ones. Longer gaps and those at the beginning and the end stay: there the point is released. Transforms are
+/// left as they are.
+GapReport bridge_gaps(Trajectories& motion, int longest);
+
 /// Frames a second of a step that a file has in few digits: 0.00833333 is 120. 0 where it is no step.
 double rate_of_step(double seconds);
 
