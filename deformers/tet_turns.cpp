@@ -47,6 +47,18 @@ bool fix_rotation(const std::vector<Vec3>& points) {
   return svd.singularValues()[1] > 1e-4 * svd.singularValues()[0];
 }
 
+/// Vertices of a handle, then its ties, where they are in x.
+std::vector<Vec3> points_of(const TetHandle& handle, const std::vector<Vec3>& x) {
+  std::vector<Vec3> out;
+  for (const Index v : handle.vertices) out.push_back(x[v]);
+  for (const TetTie& tie : handle.ties) {
+    Vec3 p = Vec3::Zero();
+    for (std::size_t a = 0; a < 4; ++a) p += tie.weights[a] * x[tie.vertices[a]];
+    out.push_back(p);
+  }
+  return out;
+}
+
 std::vector<Vec3> chosen(const std::vector<Vec3>& all, const std::vector<Index>& which) {
   std::vector<Vec3> out;
   out.reserve(which.size());
@@ -61,12 +73,9 @@ std::vector<Vec3> chosen(const std::vector<Vec3>& all, const std::vector<Index>&
 std::vector<Vec3> TetSolver::turns_to(std::span<const TetTarget> targets) const {
   std::vector<Vec3> out(targets.size(), Vec3::Zero());
   for (std::size_t h = 0; h < targets.size(); ++h) {
-    const std::vector<Index>& vertices = constraints_.handles[h].vertices;
-    const std::vector<Vec3> now = chosen(x_, vertices);
-    if (!fix_rotation(chosen(rest_, vertices))) continue;
-    const std::vector<Vec3> to(targets[h].positions.begin(),
-                               targets[h].positions.begin() + static_cast<std::ptrdiff_t>(vertices.size()));
-    out[h] = turn_of(fitted_rotation(now, to));
+    const TetHandle& handle = constraints_.handles[h];
+    if (!fix_rotation(points_of(handle, rest_))) continue;
+    out[h] = turn_of(fitted_rotation(points_of(handle, x_), targets[h].positions));
     if (!targets[h].turn) continue;
     const bool known = from_rest_ || last_turns_[h].has_value();
     if (!known) continue;
@@ -89,6 +98,12 @@ void TetSolver::make_fields() {
       owner[v] = as;
     }
   };
+  // One handle and nothing fixed: all goes with it.
+  fields_.assign(constraints_.handles.size(), {});
+  if (constraints_.fixed.empty() && constraints_.handles.size() == 1) {
+    fields_[0].assign(tets_.size(), 1);
+    return;
+  }
   hold(constraints_.fixed, 0);
   for (std::size_t h = 0; h < constraints_.handles.size(); ++h)
     hold(constraints_.handles[h].vertices, static_cast<double>(h) + 1);
@@ -100,7 +115,6 @@ void TetSolver::make_fields() {
       number[v] = count++;
       free.push_back(v);
     }
-  fields_.assign(constraints_.handles.size(), {});
   if (count == 0) return;
   BlockMatrix L = energy_.laplacian(number, count, TetEnergy::Ties::No);
   const BlockMatrix all = energy_.laplacian();
@@ -165,12 +179,7 @@ void TetSolver::turn_handles(std::span<const TetTarget> targets, std::span<const
     const double u = static_cast<double>(s) / steps;
     for (std::size_t h = 0; h < targets.size(); ++h) {
       const TetHandle& handle = constraints_.handles[h];
-      std::vector<Vec3> from = chosen(start, handle.vertices);
-      for (const TetTie& tie : handle.ties) {
-        Vec3 p = Vec3::Zero();
-        for (std::size_t a = 0; a < 4; ++a) p += tie.weights[a] * start[tie.vertices[a]];
-        from.push_back(p);
-      }
+      const std::vector<Vec3> from = points_of(handle, start);
       if (from.empty()) continue;
       const std::vector<Vec3>& to = targets[h].positions;
       const Vec3 a = mean(from), b = mean(to);

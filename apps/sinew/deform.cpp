@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "apps/sinew/command.h"
@@ -10,6 +11,7 @@
 #include "deformers/methods.h"
 #include "engine/document/edit.h"
 #include "engine/document/evaluate.h"
+#include "engine/document/markers.h"
 #include "engine/document/pose_file.h"
 #include "engine/document/settings.h"
 #include "engine/geometry/parallel.h"
@@ -39,9 +41,11 @@ document::Project edit_of(const Options& options) {
   return project;
 }
 
-/// Whether the command line speaks of frames.
-bool many_frames(const Options& options) {
-  return !options.frames.empty() || !options.task.empty() || io::names_frames(options.input, options.from) ||
+/// Whether the command line speaks of frames, or a motion of the edit does.
+bool many_frames(const Options& options, const document::Project& project) {
+  const auto driven = [](const document::Layer& layer) { return layer.on && layer.markers; };
+  return std::any_of(project.layers.begin(), project.layers.end(), driven) || !options.frames.empty() ||
+         !options.task.empty() || io::names_frames(options.input, options.from) ||
          io::names_frames(options.out.path, options.out.as);
 }
 
@@ -51,7 +55,6 @@ void check_outputs(const Options& options) {
     throw UsageError("expected one of INPUT and --edit to be -, found both");
   const int streams = (options.out.path == "-") + (options.report == "-") + (options.pose == "-");
   if (streams > 1) throw UsageError("expected one output to be -, found " + std::to_string(streams));
-  if (!many_frames(options)) check_output(options.out);
   if (!options.report.empty()) check_output_text(options.report, options.out.force);
   if (!options.pose.empty()) check_output_text(options.pose, options.out.force);
 }
@@ -82,15 +85,14 @@ int status_of(const document::Evaluation& evaluation, bool strict) {
 }
 
 /// The frames of a sequence; pose files are for one frame.
-int run_frames(const Options& options) {
-  const Clock::time_point begin = Clock::now();
+int run_frames(const Options& options, const document::Project& project, Clock::time_point begin) {
   if (!options.pose.empty())
     throw UsageError("--pose: expected one frame, found a sequence, whose pose changes from frame to frame");
-  const document::Project project = edit_of(options);
   FramesWork work;
   work.input = options.input;
   work.from = options.from;
-  work.sequence = open_input(options.input, options.from);
+  const std::shared_ptr<const Sequence> input = open_input(options.input, options.from);
+  work.sequence = std::make_shared<const Sequence>(document::with_frames_of_markers(*input, project.layers));
   work.frames = options.frames;
   work.out = options.out;
   work.strict = options.strict;
@@ -115,8 +117,9 @@ int run_frames(const Options& options) {
 int run(const Options& options) {
   const Clock::time_point begin = Clock::now();
   check_outputs(options);
-  if (many_frames(options)) return run_frames(options);
   const document::Project project = edit_of(options);
+  if (many_frames(options, project)) return run_frames(options, project, begin);
+  check_output(options.out);
   document::Report report;
   const std::shared_ptr<const Shape> input = read_input(options.input, options.from);
   report.read = seconds_since(begin);

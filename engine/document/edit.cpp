@@ -35,7 +35,8 @@ concept Is = std::is_same_v<std::remove_const_t<T>, U>;
 
 template <class T>
 requires Is<T, Selection> || Is<T, Ball> || Is<T, Rotation> || Is<T, Motion> || Is<T, HandleEdit> || Is<T, Stiffness> ||
-    Is<T, Key> || Is<T, CutEdit> || Is<T, ParticlePath> || Is<T, Layer> || Is<T, EditFile>
+    Is<T, Key> || Is<T, CutEdit> || Is<T, ParticlePath> || Is<T, MarkerMatch> || Is<T, MarkersEdit> || Is<T, Layer> ||
+    Is<T, EditFile>
 inline constexpr bool is_object<T> = true;
 
 static void read_value(const JsonFile& file, const Json& json, SettingsObject& settings) {
@@ -286,6 +287,38 @@ static void fields(A& a, Is<ParticlePath> auto& path) {
 }
 
 template <class A>
+static void fields(A& a, Is<MarkerMatch> auto& match) {
+  a.required("name", match.name);
+  a.required("place", match.place);
+  a.place(match.at);
+}
+
+template <class A>
+static void fields(A& a, Is<MarkersEdit> auto& markers) {
+  a.required("file", markers.path);
+  a.optional("first", markers.first);
+  a.optional("only", markers.only);
+  a.optional("matches", markers.matches);
+  a.optional("scale", markers.scale);
+  a.optional("rotate", markers.rotate);
+  a.optional("move", markers.move);
+  std::optional<int> bridge = markers.bridge == MarkersEdit{}.bridge ? std::nullopt : std::optional(markers.bridge);
+  a.optional("bridge", bridge);
+  a.place(markers.place);
+  if constexpr (A::reading) {
+    markers.bridge = bridge.value_or(MarkersEdit{}.bridge);
+    const Json *scale = a.json().find("scale"), *matches = a.json().find("matches");
+    if (scale != nullptr && !(*markers.scale > 0)) throw a.file().error(*scale, "a number above 0");
+    if (bridge && *bridge < 0) throw a.file().error(*a.json().find("bridge"), "a whole number of at least 0");
+    if (matches != nullptr && markers.matches.size() < 3)
+      throw a.file().error(*matches, "at least 3 matches, which fix a rotation",
+                           std::to_string(markers.matches.size()));
+    if (matches != nullptr && (markers.rotate || markers.move))
+      throw a.file().error(a.json(), "\"matches\", or \"rotate\" and \"move\"", "both");
+  }
+}
+
+template <class A>
 static void fields(A& a, Is<Layer> auto& layer) {
   SettingsObject settings{layer.settings};
   bool off = !layer.on;
@@ -297,6 +330,7 @@ static void fields(A& a, Is<Layer> auto& layer) {
   a.optional("path", layer.path);
   a.optional("cuts", layer.cuts);
   a.optional("tets", layer.tets);
+  a.optional("markers", layer.markers);
   a.optional("nodes", layer.nodes);
   a.optional("fixed", layer.fixed);
   a.optional("handles", layer.handles);
@@ -332,6 +366,7 @@ static void change_paths(Project& project, const Change& change) {
   for (std::string& path : project.inputs) path = change(path);
   for (Layer& layer : project.layers) {
     for (std::string& path : layer.examples) path = change(path);
+    if (layer.markers) layer.markers->path = change(layer.markers->path);
     if (!layer.tets.empty()) layer.tets = change(layer.tets);
     for (Selection& selection : layer.nodes) visit(selection);
     for (Selection& selection : layer.fixed) visit(selection);

@@ -116,6 +116,8 @@ Evaluation evaluate(Workspace& workspace, std::span<const Layer> layers, int fra
     report.solve = result.report;
     report.counts = deformer.counts();
     report.notes = deformer.notes();
+    if (const Markers* markers = workspace.markers(result.layer))
+      report.notes.insert(report.notes.end(), markers->notes().begin(), markers->notes().end());
     if (out.reports.empty()) {
       const std::vector<std::string> left = not_bent(*input);
       report.notes.insert(report.notes.end(), left.begin(), left.end());

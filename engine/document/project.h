@@ -141,6 +141,30 @@ struct ParticlePath {
   bool operator==(const ParticlePath&) const = default;
 };
 
+/// A marker of a motion and where it belongs on the shape, in the file's coordinates.
+struct MarkerMatch {
+  std::string name;
+  Vec3 place = Vec3::Zero();
+  Place at;
+  bool operator==(const MarkerMatch&) const = default;
+};
+
+/// Captured markers, or the joints of a skeleton, as handles: each pulls the place along that it has in the first
+/// frame. Aligned with the shape there: p -> scale R p + move, by the matches where there are any (at least three),
+/// else as given.
+struct MarkersEdit {
+  std::string path;               ///< as SelectLabels::path
+  std::optional<int> first;       ///< frame of the motion that is aligned; absent: its first
+  std::vector<std::string> only;  ///< names of those that are used; empty: all
+  std::vector<MarkerMatch> matches;
+  std::optional<double> scale;  ///< absent: fitted to the matches; without these 1
+  std::optional<Rotation> rotate;
+  std::optional<Vec3> move;
+  int bridge = 12;  ///< gaps of up to so many frames are bridged; in longer ones the marker is released
+  Place place;
+  bool operator==(const MarkersEdit&) const = default;
+};
+
 /// A setting as the user gave it: a number, or the name of a choice.
 struct SettingEdit {
   std::string name;
@@ -157,7 +181,8 @@ struct Layer {
   std::optional<int> frame;  ///< of a sequence: that the structure is made at; absent: the first key's, or the first
   std::optional<ParticlePath> path;
   std::vector<CutEdit> cuts;
-  std::string tets;              ///< a file of tets for the method to use, as SelectLabels::path; empty: it makes some
+  std::string tets;  ///< a file of tets for the method to use, as SelectLabels::path; empty: it makes some
+  std::optional<MarkersEdit> markers;
   std::vector<Selection> nodes;  ///< points that the method is to build its structure on; empty: it chooses
   std::vector<Selection> fixed;
   std::vector<HandleEdit> handles;

@@ -63,6 +63,7 @@ void refuse_unknown_parts(const Layer& layer, const Method& method) {
       {"stiffness", method.parts.stiffness, layer.stiffness.size()},
       {"examples", method.parts.examples, layer.examples.size()},
       {"tets", method.parts.solid, layer.tets.empty() ? 0 : 1},
+      {"markers", method.parts.places, layer.markers ? 1 : 0},
       {"places", method.parts.places, count_places(layer)}};
   for (const auto& [name, known, count] : parts)
     if (count > 0 && !known)

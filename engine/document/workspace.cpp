@@ -97,6 +97,10 @@ const Deformer* Workspace::deformer(std::size_t layer) const {
   return layer < kept_.size() ? kept_[layer].deformer.get() : nullptr;
 }
 
+const Markers* Workspace::markers(std::size_t layer) const {
+  return layer < kept_.size() ? kept_[layer].markers.get() : nullptr;
+}
+
 std::shared_ptr<const Shape> Workspace::rest(std::size_t layer) const {
   return layer < kept_.size() ? kept_[layer].followed : nullptr;
 }
@@ -189,6 +193,9 @@ bool Workspace::bring_made(std::size_t i, int frame) {
   if (!(kept.layer.start == layer.start)) kept.solved.clear();
   if (!same_marks(kept.layer, layer)) kept.marked.reset();
   kept.layer = layer;
+  if (!layer.markers) kept.markers = nullptr;
+  if (layer.markers && (kept.markers == nullptr || kept.markers->edit() != *layer.markers))
+    kept.markers = markers_of(layer);
   const std::shared_ptr<const Shape> rest = rest_of(i, frame);
   if (rest == nullptr) return false;
   std::optional<Wanted> asked = wanted(i, frame, *rest);
@@ -347,6 +354,10 @@ std::optional<Workspace::Wanted> Workspace::wanted(std::size_t i, int frame, con
         {points, targets_of(out.motions[h], now, rest.origin), std::move(places), turn_of(out.motions[h])});
     out.centres.push_back(std::accumulate(now.begin(), now.end(), Vec3(0, 0, 0)) / static_cast<double>(now.size()));
   }
+  // Beyond the handles that have motions: what has none can't be taken hold of.
+  if (kept.markers != nullptr)
+    if (Handle driven = kept.markers->handle(frame, rest.origin); !driven.places.empty())
+      out.constraints.handles.push_back(std::move(driven));
   return out;
 }
 

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "engine/document/footage.h"
+#include "engine/document/markers.h"
 #include "engine/document/project.h"
 #include "engine/geometry/deformer.h"
 
@@ -74,6 +75,8 @@ class Workspace {
 
   /// Deformer of a layer as it is at the frame of the last update; null where there is none.
   const Deformer* deformer(std::size_t layer) const;
+  /// The motion that drives a layer, as of the last update; null where there is none.
+  const Markers* markers(std::size_t layer) const;
   /// The rest shape of a layer's deformer at the frame of the last update: the output of the layers below.
   std::shared_ptr<const Shape> rest(std::size_t layer) const;
 
@@ -97,11 +100,12 @@ class Workspace {
     std::shared_ptr<const Shape> base;  ///< what the deformer was made for
     std::shared_ptr<Deformer> deformer;
     double build_seconds = 0;
-    std::optional<Layer> fitted;            ///< the edit that the structure was refined for
-    bool grown = false;                     ///< and it was
-    std::optional<Marked> marked;           ///< of `layer`
-    std::shared_ptr<const Shape> followed;  ///< the rest shape that the deformer has now
-    std::shared_ptr<const Pose> held;       ///< the pose that it has there, where that is one of `solved`
+    std::optional<Layer> fitted;             ///< the edit that the structure was refined for
+    bool grown = false;                      ///< and it was
+    std::optional<Marked> marked;            ///< of `layer`
+    std::shared_ptr<const Markers> markers;  ///< of `layer`; null where it has none
+    std::shared_ptr<const Shape> followed;   ///< the rest shape that the deformer has now
+    std::shared_ptr<const Pose> held;        ///< the pose that it has there, where that is one of `solved`
     std::map<int, Solved> solved;
     std::shared_ptr<const Deformer::Structure> structure;  ///< at `followed`; null until it is asked for
     std::shared_ptr<const SkinWeights> weights;            ///< of the points shown

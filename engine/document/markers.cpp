@@ -1,0 +1,139 @@
+#include "engine/document/markers.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "engine/document/settings.h"
+#include "engine/geometry/error.h"
+
+namespace sinew::document {
+
+namespace {
+
+constexpr std::size_t missing = ~std::size_t{0};
+
+std::size_t number_of(const io::Trajectories& motion, const std::string& name) {
+  const auto found = std::find(motion.names.begin(), motion.names.end(), name);
+  return found == motion.names.end() ? missing : static_cast<std::size_t>(found - motion.names.begin());
+}
+
+std::string some_names(const io::Trajectories& motion) {
+  constexpr std::size_t most = 12;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(most, motion.names.size()); ++i)
+    out += (i == 0 ? "" : ", ") + sinew::quoted(motion.names[i]);
+  return motion.names.size() > most ? out + ", ..." : out;
+}
+
+}  // namespace
+
+Markers::Markers(const MarkersEdit& edit) : edit_(edit), motion_(io::read_motion(edit.path)) {
+  for (const std::string& note : motion_.notes) notes_.push_back(note);
+  for (const std::string& sentence : io::bridge_gaps(motion_, edit.bridge).sentences()) notes_.push_back(sentence);
+  const int first = edit.first.value_or(motion_.first_frame);
+  first_ = row(first);
+  if (first_ == missing)
+    throw place_error(edit.place, "markers",
+                      "a first frame from " + std::to_string(motion_.first_frame) + " to " +
+                          std::to_string(motion_.first_frame + static_cast<int>(motion_.frames.size()) - 1),
+                      std::to_string(first));
+  for (const std::string& name : edit.only) {
+    const std::size_t i = number_of(motion_, name);
+    if (i == missing)
+      throw place_error(edit.place, "markers", "names of the motion (" + some_names(motion_) + ")",
+                        sinew::quoted(name));
+    used_.push_back(i);
+  }
+  if (edit.only.empty())
+    for (std::size_t i = 0; i < motion_.names.size(); ++i) used_.push_back(i);
+  const std::size_t named = used_.size();
+  std::erase_if(used_, [&](std::size_t i) { return !io::seen(motion_.frames[first_][i]); });
+  if (used_.empty())
+    throw place_error(edit.place, "markers", "markers that are seen in frame " + std::to_string(first), "none");
+  if (const std::size_t lost = named - used_.size(); lost > 0)
+    notes_.push_back(std::to_string(lost) + (lost == 1 ? " marker is" : " markers are") + " not seen in frame " +
+                     std::to_string(first) + " and " + (lost == 1 ? "is" : "are") + " not used.");
+  align();
+}
+
+/// The similarity nearest to the matches in least squares [Umeyama 1991], or what the edit says.
+void Markers::align() {
+  if (edit_.matches.empty()) {
+    scale_ = edit_.scale.value_or(1);
+    if (edit_.rotate) {
+      const double radians = edit_.rotate->degrees * (std::numbers::pi / 180);
+      R_ = Eigen::AngleAxisd(radians, edit_.rotate->axis.stableNormalized()).toRotationMatrix();
+      if (edit_.rotate->about) t_ = scale_ * (*edit_.rotate->about - R_ * *edit_.rotate->about);
+    }
+    if (edit_.move) t_ += *edit_.move;
+    return;
+  }
+  const auto n = static_cast<Eigen::Index>(edit_.matches.size());
+  Eigen::Matrix3Xd from(3, n), to(3, n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const MarkerMatch& match = edit_.matches[static_cast<std::size_t>(k)];
+    const std::size_t i = number_of(motion_, match.name);
+    if (i == missing || !io::seen(motion_.frames[first_][i]))
+      throw place_error(match.at, "match", "a marker that is seen in the first frame (" + some_names(motion_) + ")",
+                        sinew::quoted(match.name));
+    from.col(k) = motion_.frames[first_][i];
+    to.col(k) = match.place;
+  }
+  const auto spread = [](const Eigen::Matrix3Xd& points) {
+    const Eigen::Matrix3Xd centred = points.colwise() - points.rowwise().mean().eval();
+    return Eigen::JacobiSVD<Mat3>(centred * centred.transpose()).singularValues();
+  };
+  for (const Eigen::Matrix3Xd* points : {&from, &to})
+    if (const Vec3 s = spread(*points); !(s[1] > 1e-8 * s[0]))
+      throw place_error(edit_.place, "markers", "matches that do not all lie on a line", "a line");
+  const Eigen::Matrix4d fit = Eigen::umeyama(from, to, !edit_.scale);
+  scale_ = edit_.scale.value_or(fit.block<3, 1>(0, 0).norm());
+  R_ = fit.topLeftCorner<3, 3>() / (edit_.scale ? 1 : scale_);
+  t_ = to.rowwise().mean() - scale_ * R_ * from.rowwise().mean();
+  fit_rms_ = std::sqrt((((scale_ * R_ * from).colwise() + t_) - to).squaredNorm() / static_cast<double>(n));
+}
+
+std::size_t Markers::row(int frame) const {
+  const long long at = static_cast<long long>(frame) - motion_.first_frame;
+  return at >= 0 && at < static_cast<long long>(motion_.frames.size()) ? static_cast<std::size_t>(at) : missing;
+}
+
+std::vector<int> Markers::frames() const {
+  std::vector<int> out;
+  for (std::size_t f = 0; f < motion_.frames.size(); ++f) out.push_back(motion_.first_frame + static_cast<int>(f));
+  return out;
+}
+
+Handle Markers::handle(int frame, const Vec3& origin) const {
+  Handle out;
+  const std::size_t now = row(frame);
+  if (now == missing) return out;
+  for (const std::size_t i : used_) {
+    if (!io::seen(motion_.frames[now][i])) continue;
+    out.places.push_back(aligned(motion_.frames[first_][i]) - origin);
+    out.targets.push_back(aligned(motion_.frames[now][i]) - origin);
+  }
+  return out;
+}
+
+std::shared_ptr<const Markers> markers_of(const Layer& layer) {
+  return layer.markers ? std::make_shared<const Markers>(*layer.markers) : nullptr;
+}
+
+Sequence with_frames_of_markers(const Sequence& input, std::span<const Layer> layers) {
+  if (input.frames.size() > 1) return input;
+  for (const Layer& layer : layers) {
+    if (!layer.on || !layer.markers) continue;
+    const Markers markers(*layer.markers);
+    Sequence out = input;
+    out.frames = markers.frames();
+    if (markers.rate() > 0) out.rate = markers.rate();
+    out.load = [load = input.load, frame = input.frames.front()](int) { return load(frame); };
+    return out;
+  }
+  return input;
+}
+
+}  // namespace sinew::document
