@@ -4,6 +4,7 @@
 
 #include "apps/sinew/command.h"
 #include "apps/sinew/frames.h"
+#include "apps/sinew/motion_info.h"
 #include "apps/sinew/progress.h"
 #include "engine/document/json.h"
 #include "engine/document/report.h"
@@ -167,6 +168,10 @@ int run(const Options& options) {
   const bool array = options.files.size() > 1;
   if (array) out.begin_array(false);
   for (const std::string& file : options.files) {
+    if (is_motion(file, options.from)) {
+      show_motion(file, options.from, options.json ? &out : nullptr);
+      continue;
+    }
     const Info info = info_of(file, options.from);
     if (options.json)
       write_json(out, info);
@@ -182,7 +187,8 @@ int run(const Options& options) {
 
 std::function<int()> declare_info(Arguments& arguments) {
   const auto options = std::make_shared<Options>();
-  arguments.positionals("FILE", options->files, "Files and runs of files (run.####.obj) to look at; - with --from");
+  arguments.positionals("FILE", options->files,
+                        "Files and runs of files (run.####.obj), motion capture (walk.c3d) to look at; - with --from");
   arguments.flag("--json", options->json, "One JSON object; for several files an array of them");
   arguments.option("--from", "EXT", options->from, "Format of standard input, by an extension");
   return [options] { return run(*options); };

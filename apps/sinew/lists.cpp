@@ -4,6 +4,7 @@
 #include "deformers/methods.h"
 #include "engine/document/json.h"
 #include "engine/io/io.h"
+#include "engine/io/motion.h"
 
 namespace sinew::app {
 
@@ -15,6 +16,9 @@ int print_formats() {
     for (const std::string& e : format.extensions) extensions += (extensions.empty() ? "." : " .") + e;
     fmt::print("{:<8}{:<20}{:<7}{}\n", format.name, extensions, format.write != nullptr ? "r w" : "r", format.help);
   }
+  for (const io::MotionFormat& format : io::motion_formats())
+    fmt::print("{:<8}{:<20}{:<7}{}\n", format.name, "." + format.extension, format.write != nullptr ? "r w" : "r",
+               format.help);
   return Ok;
 }
 

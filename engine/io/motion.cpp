@@ -21,13 +21,14 @@ const std::vector<MotionFormat>& table() {
       {"TRC", "trc", "markers in text with tabs between", read_trc},
       {"BVH", "bvh", "skeletons; any channels in any order; places and turns of joints by forward kinematics",
        read_bvh},
-      {"CSV of markers", "csv", "markers; columns NAME.x, NAME.y, NAME.z, frame, time", read_marker_csv},
+      {"Markers", "csv", "in CSV; columns NAME.x, NAME.y, NAME.z, frame, time", read_marker_csv, write_marker_csv},
   };
   return rows;
 }
 
-std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
+/// Lower case, with the dot.
+std::string extension_of(const std::string& path, const std::string& as) {
+  std::string extension = path == "-" && !as.empty() ? "." + as : std::filesystem::path(path).extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return extension;
@@ -39,19 +40,19 @@ std::span<const MotionFormat> motion_formats() {
   return table();
 }
 
-const MotionFormat* motion_format_of(const std::string& path) {
-  const std::string extension = extension_of(path);
+const MotionFormat* motion_format_of(const std::string& path, const std::string& as) {
+  const std::string extension = extension_of(path, as);
   const auto row =
       std::find_if(table().begin(), table().end(), [&](const auto& f) { return "." + f.extension == extension; });
   return row == table().end() ? nullptr : &*row;
 }
 
-Trajectories read_motion(const std::string& path) {
-  const MotionFormat* format = motion_format_of(path);
+Trajectories read_motion(const std::string& path, const std::string& as) {
+  const MotionFormat* format = motion_format_of(path, as);
   if (format == nullptr) {
     std::string known;
     for (const MotionFormat& f : table()) known += (known.empty() ? "." : ", .") + f.extension;
-    const std::string extension = extension_of(path);
+    const std::string extension = extension_of(path, as);
     throw file_error(path, "a name that ends in " + known,
                      extension.empty() ? "no extension" : sinew::quoted(extension));
   }

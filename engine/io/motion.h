@@ -36,22 +36,26 @@ inline bool seen(const Vec3& p) {
 }
 inline const Vec3 not_seen = Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
 
+struct WriteReport;
+
 struct MotionFormat {
   std::string name;       ///< "C3D"
   std::string extension;  ///< lower case, without the dot
   std::string help;       ///< what of the format is read, one line
   /// Parses the bytes of a file; `path` is only for messages. Throws InputError.
   Trajectories (*read)(const std::string& path, std::span<const std::byte> bytes);
+  /// The bytes of a file that holds `motion`. Null where the format is only read.
+  std::vector<std::byte> (*write)(const Trajectories& motion, WriteReport& report) = nullptr;
 };
 
 std::span<const MotionFormat> motion_formats();
 
-/// By the extension; null where it is none of motion.
-const MotionFormat* motion_format_of(const std::string& path);
+/// By the extension, of "-" by `as`; null where it is none of motion. ".csv" is one of shapes as well.
+const MotionFormat* motion_format_of(const std::string& path, const std::string& as = "");
 
 /// There is at least one frame of at least one point, and each frame has as many points as there are names. Throws
-/// InputError.
-Trajectories read_motion(const std::string& path);
+/// InputError. "-" is standard input, in the format of the extension `as`.
+Trajectories read_motion(const std::string& path, const std::string& as = "");
 
 /// Frames in which a point was not seen, by their numbers.
 struct Gap {

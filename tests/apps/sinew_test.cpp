@@ -7,6 +7,7 @@
 #include "engine/document/edit.h"
 #include "engine/document/evaluate.h"
 #include "engine/io/io.h"
+#include "engine/io/motion.h"
 #include "tests/apps/program.h"
 #include "tests/apps/sinew_fixtures.h"
 #include "tests/io/temporary_folder.h"
@@ -292,7 +293,8 @@ TEST_F(Sinew, ListsAreTheTables) {
       EXPECT_NE(text.out.find(methods()[m].settings[s].help), std::string::npos);
     }
   const Outcome rows = run_sinew({"formats"});
-  EXPECT_EQ(static_cast<std::size_t>(std::count(rows.out.begin(), rows.out.end(), '\n')), io::formats().size());
+  EXPECT_EQ(static_cast<std::size_t>(std::count(rows.out.begin(), rows.out.end(), '\n')),
+            io::formats().size() + io::motion_formats().size());
 }
 
 }  // namespace sinew
