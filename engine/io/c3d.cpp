@@ -89,6 +89,10 @@ std::size_t parameters_end(std::span<const std::byte> bytes, std::size_t begin) 
   return end > begin ? std::min(end, bytes.size()) : bytes.size();
 }
 
+bool is_scale(double x) {
+  return std::isfinite(x) && x != 0;
+}
+
 /// A parameter that is a count; nothing where it is none, or one that no file holds.
 std::optional<std::size_t> count_of(const C3dParameters& parameters, std::string_view group, std::string_view name) {
   const auto number = parameters.number(group, name);
@@ -100,8 +104,7 @@ std::optional<std::size_t> count_of(const C3dParameters& parameters, std::string
 Layout layout_of(const C3dParameters& parameters, const Header& header) {
   Layout layout{header.points, header.analog, header.scale, byte_of_block(header.data_block)};
   layout.points = count_of(parameters, "POINT", "USED").value_or(layout.points);
-  if (const auto scale = parameters.number("POINT", "SCALE"); scale && std::isfinite(*scale) && *scale != 0)
-    layout.scale = *scale;
+  if (const auto scale = parameters.number("POINT", "SCALE"); scale && is_scale(*scale)) layout.scale = *scale;
   if (const auto start = count_of(parameters, "POINT", "DATA_START"); start && *start >= 2)
     layout.begin = byte_of_block(*start);
   const auto channels = count_of(parameters, "ANALOG", "USED");
@@ -141,7 +144,7 @@ Chosen choose(const std::string& path, const std::vector<Layout>& layouts, const
               std::size_t size) {
   std::optional<Chosen> fits;
   for (const Layout& layout : layouts) {
-    if (layout.points == 0 || layout.begin < block || layout.begin > size) continue;
+    if (layout.points == 0 || !is_scale(layout.scale) || layout.begin < block || layout.begin > size) continue;
     for (const Range& range : ranges) {
       const std::size_t left = size - layout.begin, frames = static_cast<std::size_t>(range.count);
       if (frames > left / layout.frame_size()) continue;
@@ -152,6 +155,8 @@ Chosen choose(const std::string& path, const std::vector<Layout>& layouts, const
   if (fits) return *fits;
   const Layout& layout = layouts.front();
   if (layout.points == 0) throw file_error(path, "at least one point", "0");
+  if (!is_scale(layout.scale))
+    throw byte_error(path, 12, "the scale of the points, which is not zero", shortest(layout.scale));
   if (ranges.empty()) throw file_error(path, "at least one frame", "0");
   const std::size_t begin = std::min(layout.begin, size);
   throw byte_error(

@@ -49,7 +49,7 @@ class HeaderRow {
   void add(const std::vector<Cell>& cells, std::size_t i) {
     const std::string& text = cells[i].text;
     const auto is = [&](const char* word) { return same_word(text, word); };
-    if (const auto axis = axis_of(text); axis && !is("time_s")) {
+    if (const auto axis = axis_of(text); axis) {
       const auto [at, fresh] = markers_.try_emplace(axis->marker, columns.names.size());
       if (fresh) {
         columns.names.push_back(axis->marker);

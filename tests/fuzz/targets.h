@@ -8,6 +8,7 @@
 #include "engine/io/byte_source.h"
 #include "engine/io/bytes.h"
 #include "engine/io/gltf.h"
+#include "engine/io/marker_csv.h"
 #include "engine/io/mdd.h"
 #include "engine/io/pc2.h"
 #include "engine/io/ply.h"
@@ -166,6 +167,42 @@ inline void fuzz_mdd(std::span<const std::uint8_t> data) {
 
 inline void fuzz_gltf(std::span<const std::uint8_t> data) {
   fuzz_frames(open_gltf, read_gltf, write_gltf, false, data);
+}
+
+inline void check_sound(const Trajectories& motion) {
+  CHECK(!motion.names.empty() && !motion.frames.empty() && motion.rate >= 0, motion.rate);
+  for (const auto& frame : motion.frames) {
+    CHECK(frame.size() == motion.names.size(), frame.size());
+    for (const Vec3& p : frame) CHECK(p.allFinite() || p.array().isNaN().all());
+  }
+  const auto points = static_cast<int>(motion.names.size());
+  for (const auto& [parent, child] : motion.bones)
+    CHECK(0 <= parent && parent < child && child < points, parent, child);
+  CHECK(motion.transforms.size() == (motion.rest.empty() ? 0 : motion.frames.size()));
+  for (const auto& frame : motion.transforms) CHECK(frame.size() == motion.names.size(), frame.size());
+}
+
+/// Motion capture: sound, every gap bridged or released, and as CSV of markers the same numbers again.
+inline void fuzz_motion(Trajectories (*read)(const std::string&, std::span<const std::byte>),
+                        std::span<const std::uint8_t> data) {
+  try {
+    Trajectories motion = read("fuzz", std::as_bytes(data));
+    check_sound(motion);
+    const GapReport gaps = gaps_of(motion);
+    WriteReport lost;
+    const Trajectories again = read_marker_csv("again", write_marker_csv(motion, lost));
+    check_sound(again);
+    CHECK(again.frames.size() == motion.frames.size() && again.names.size() == motion.names.size());
+    for (std::size_t f = 0; f < motion.frames.size(); ++f)
+      for (std::size_t p = 0; p < motion.names.size(); ++p) {
+        const Vec3 &a = motion.frames[f][p], &b = again.frames[f][p];
+        CHECK(a == b || (!seen(a) && !seen(b)), f, p);
+      }
+    const GapReport bridged = bridge_gaps(motion, 5);
+    CHECK(bridged.bridged + bridged.released == gaps.released, bridged.bridged, gaps.released);
+    CHECK(bridged.sentences().size() == gaps.sentences().size());
+  } catch (const InputError&) {
+  }
 }
 
 }  // namespace sinew::io

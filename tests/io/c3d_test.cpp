@@ -191,6 +191,16 @@ TEST(C3d, WrongFilesAreRefused) {
   std::string bad = good;
   bad[515] = 7;
   EXPECT_EQ(refused(bad), "a.c3d: byte 515: expected the processor: 84 (Intel), 85 (DEC) or 86 (MIPS), found 7");
+  C3dMaker flat;
+  flat.real = false;
+  bad = flat.bytes();
+  const std::size_t scale = bad.find("SCALE") + 5 + 2 + 2;  // behind the offset, the type and the count of dimensions
+  bad.replace(12, 4, 4, '\0').replace(scale, 4, 4, '\0');
+  EXPECT_EQ(refused(bad), "a.c3d: byte 12: expected the scale of the points, which is not zero, found 0");
+  // One of the two is enough.
+  bad = flat.bytes();
+  bad.replace(scale, 4, 4, '\0');
+  EXPECT_EQ(read_c3d("a.c3d", bytes_of(bad)).frames[1][2].x(), C3dMaker::value(1, 2, 0));
   C3dMaker none;
   none.points = 0;
   EXPECT_EQ(refused(none.bytes()), "a.c3d: expected at least one point, found 0");

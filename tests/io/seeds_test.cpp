@@ -2,11 +2,14 @@
 #include <iostream>
 
 #include "engine/io/bgeo.h"
+#include "engine/io/bvh.h"
+#include "engine/io/c3d.h"
 #include "engine/io/gmsh.h"
 #include "engine/io/medit.h"
 #include "engine/io/obj.h"
 #include "engine/io/off.h"
 #include "engine/io/pcd.h"
+#include "engine/io/trc.h"
 #include "engine/io/vtk.h"
 #include "engine/io/xyz.h"
 #include "tests/fuzz/targets.h"
@@ -25,6 +28,11 @@ struct Target {
 template <ReadFunction read, WriteFunction write>
 void fuzz(std::span<const std::uint8_t> data) {
   fuzz_format(read, write, data);
+}
+
+template <Trajectories (*read)(const std::string&, std::span<const std::byte>)>
+void fuzz(std::span<const std::uint8_t> data) {
+  fuzz_motion(read, data);
 }
 
 class Seeds : public testing::TestWithParam<Target> {};
@@ -53,6 +61,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Target{"pcd", fuzz<read_pcd, write_pcd>}, Target{"vtp", fuzz_vtp},
                     Target{"bgeo", fuzz<read_bgeo, write_bgeo>}, Target{"vtk", fuzz<read_vtk, write_vtk>},
                     Target{"tetgen", fuzz_tetgen}, Target{"gmsh", fuzz<read_gmsh, write_gmsh>},
-                    Target{"medit", fuzz<read_medit, write_medit>}));
+                    Target{"medit", fuzz<read_medit, write_medit>}, Target{"c3d", fuzz<read_c3d>},
+                    Target{"trc", fuzz<read_trc>}, Target{"bvh", fuzz<read_bvh>},
+                    Target{"markers", fuzz<read_marker_csv>}));
 
 }  // namespace sinew::io

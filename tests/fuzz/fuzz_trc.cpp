@@ -1,0 +1,7 @@
+#include "engine/io/trc.h"
+#include "tests/fuzz/targets.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  sinew::io::fuzz_motion(sinew::io::read_trc, {data, size});
+  return 0;
+}
