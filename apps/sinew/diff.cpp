@@ -121,7 +121,8 @@ bool all_else_equal(const std::string& path, const Shape& a, const Shape& b,
                     const std::vector<AttributeDiff>& attributes) {
   const io::Format& format = io::format_of(path);
   io::WriteReport report;
-  return format.write(path, neutral(a, b, attributes), report) == format.write(path, neutral(b, a, attributes), report);
+  return files_of(format, path, neutral(a, b, attributes), report) ==
+         files_of(format, path, neutral(b, a, attributes), report);
 }
 
 struct Diff {

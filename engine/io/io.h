@@ -33,6 +33,7 @@ struct FrameWriterOptions;
 struct NamedBytes {
   std::string name;
   std::vector<std::byte> bytes;
+  bool operator==(const NamedBytes&) const = default;
 };
 
 struct Format {

@@ -78,7 +78,8 @@ class VtkReader {
       read_section(t);
     }
     if (!has_points_) throw error(cursor_.next(), "a section POINTS");
-    finish();
+    for (std::size_t i = 0; i < cells_.cells; ++i) others_ += cells_.size(i) > 1 ? 1 : 0;
+    keep_vtk(shape_, content_, others_, kept_arrays_);
     return std::move(shape_);
   }
 
@@ -134,11 +135,14 @@ class VtkReader {
       read_points(t);
     } else if (key == "polygons" && polydata_) {
       read_polygons();
-    } else if (key == "vertices" || key == "lines" || key == "triangle_strips" || key == "cells") {
+    } else if (key == "vertices" || key == "lines" || key == "triangle_strips") {
       const Cells cells = read_cells();
-      for (std::size_t i = 0; i < cells.cells; ++i) others_ += cells.offsets[i + 1] - cells.offsets[i] > 1 ? 1 : 0;
-    } else if (key == "cell_types") {
-      skip(integer("the count of types of cells"), 1, Type::Int32, "types of cells");
+      for (std::size_t i = 0; i < cells.cells; ++i) others_ += cells.size(i) > 1 ? 1 : 0;
+    } else if (key == "cells" && !polydata_) {
+      if (cells_.cells > 0) throw error(t, "one section CELLS");
+      cells_ = read_cells();
+    } else if (key == "cell_types" && !polydata_) {
+      read_cell_types();
     } else if (key == "point_data") {
       section_ = Section::Points;
       const Token count = peek();
@@ -224,6 +228,7 @@ class VtkReader {
   struct Cells {
     std::size_t cells = 0;
     std::vector<std::int64_t> corners, offsets;  ///< cell i has corners [offsets[i], offsets[i + 1])
+    std::size_t size(std::size_t i) const { return static_cast<std::size_t>(offsets[i + 1] - offsets[i]); }
   };
 
   static std::vector<std::int64_t> integers(Type type, const std::vector<std::byte>& values) {
@@ -278,26 +283,55 @@ class VtkReader {
     return out;
   }
 
+  /// Corners of cell i; `place` is what a message about them points at.
+  std::vector<Index> corners_of(const Cells& cells, std::size_t i, const Token& place, const char* what) const {
+    std::vector<Index> corners;
+    for (auto k = static_cast<std::size_t>(cells.offsets[i]); k < static_cast<std::size_t>(cells.offsets[i + 1]); ++k) {
+      if (cells.corners[k] < 0 || static_cast<std::size_t>(cells.corners[k]) >= shape_.size())
+        throw error(place, std::string(what) + " of the " + std::to_string(shape_.size()) + " points, not of point " +
+                               std::to_string(cells.corners[k]) + ", behind");
+      corners.push_back(static_cast<Index>(cells.corners[k]));
+    }
+    return corners;
+  }
+
+  void add_polygon(const std::vector<Index>& corners) {
+    if (corners.size() < 3) {
+      ++others_;
+      return;
+    }
+    if (corners.size() >= no_row - shape_.faces.points.size())
+      throw file_error(path_, "fewer than 2^32 corners of faces", "more");
+    shape_.faces.add(corners);
+  }
+
   void read_polygons() {
     const Token place = peek();
     const Cells cells = read_cells();
-    std::vector<Index> corners;
-    for (std::size_t f = 0; f < cells.cells; ++f) {
-      corners.clear();
-      for (auto k = static_cast<std::size_t>(cells.offsets[f]); k < static_cast<std::size_t>(cells.offsets[f + 1]);
-           ++k) {
-        if (cells.corners[k] < 0 || static_cast<std::size_t>(cells.corners[k]) >= shape_.size())
-          throw error(place, "polygons of the " + std::to_string(shape_.size()) + " points, not of point " +
-                                 std::to_string(cells.corners[k]) + ", behind");
-        corners.push_back(static_cast<Index>(cells.corners[k]));
+    for (std::size_t f = 0; f < cells.cells; ++f) add_polygon(corners_of(cells, f, place, "polygons"));
+  }
+
+  /// The types of the cells of a grid, which tell faces and tets from others.
+  void read_cell_types() {
+    const Token place = peek();
+    const std::size_t count = integer("the count of types of cells");
+    if (count != cells_.cells)
+      throw error(place, "types of the " + std::to_string(cells_.cells) + " cells in front of them");
+    if (count == 0) return;
+    const std::vector<std::int64_t> types = integers(Type::Int32, read_values(count, 1, Type::Int32, "types of cells"));
+    const Cells cells = std::move(cells_);
+    cells_ = {};
+    for (std::size_t i = 0; i < count; ++i) {
+      if (is_vtk_face(types[i])) {
+        add_polygon(corners_of(cells, i, place, "cells"));
+      } else if (types[i] == vtk_tetra) {
+        const std::string wrong = add_vtk_tet(shape_, corners_of(cells, i, place, "cells"));
+        if (!wrong.empty())
+          throw error(
+              place, "tets of four different points, not of " + wrong + " as cell " + std::to_string(i) + ", in front");
+      } else {
+        others_ += cells.size(i) > 1 ? 1 : 0;
       }
-      if (corners.size() < 3) {
-        ++others_;
-        continue;
-      }
-      if (corners.size() >= no_row - shape_.faces.points.size())
-        throw file_error(path_, "fewer than 2^32 corners of faces", "more");
-      shape_.faces.add(corners);
     }
   }
 
@@ -441,17 +475,6 @@ class VtkReader {
     }
   }
 
-  void finish() {
-    const auto kept = [&](std::size_t count, const char* singular, const char* plural) {
-      if (count > 0) shape_.notes.push_back("Kept in the VTK file only: " + counted(count, singular, plural) + ".");
-    };
-    kept(others_, "cell that is no polygon", "cells that are no polygons");
-    kept(kept_arrays_, "array that is not of the points' numbers", "arrays that are not of the points' numbers");
-    content_->faces = shape_.faces.size();
-    content_->corners = shape_.faces.points.size();
-    shape_.content = std::move(content_);
-  }
-
   std::string path_;
   const ReadOptions& options_;
   std::shared_ptr<VtkContent> content_;
@@ -462,6 +485,7 @@ class VtkReader {
   Section section_ = Section::Dataset;
   bool binary_ = false, polydata_ = false, has_points_ = false;
   std::size_t rows_ = 0, others_ = 0, kept_arrays_ = 0;
+  Cells cells_;  ///< of a grid, until their types are read
 };
 
 }  // namespace

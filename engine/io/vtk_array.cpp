@@ -6,6 +6,7 @@
 #include "engine/io/bytes.h"
 #include "engine/io/ply_generic.h"
 #include "engine/io/rounding.h"
+#include "engine/io/solid_text.h"
 #include "engine/io/text_patch.h"
 #include "engine/io/values.h"
 
@@ -203,9 +204,30 @@ void add_vtk_attribute(Shape& shape, VtkContent& content, VtkArray array, Attrib
   shape.attributes.push_back(std::move(attribute));
 }
 
+std::string add_vtk_tet(Shape& shape, std::span<const Index> corners) {
+  if (corners.size() != 4) return "one of " + counted(corners.size(), "point", "points");
+  const Tet tet{corners[0], corners[1], corners[2], corners[3]};
+  const std::size_t again = repeated_corner(tet);
+  if (again < 4) return "point " + std::to_string(tet[again]) + " twice";
+  shape.tets.push_back(tet);
+  return "";
+}
+
+void keep_vtk(Shape& shape, std::shared_ptr<VtkContent> content, std::size_t others, std::size_t arrays) {
+  const auto kept = [&](std::size_t count, const char* singular, const char* plural) {
+    if (count > 0) shape.notes.push_back("Kept in the VTK file only: " + counted(count, singular, plural) + ".");
+  };
+  kept(others, "cell that is neither polygon nor tet", "cells that are neither polygons nor tets");
+  kept(arrays, "array that is not of the points' numbers", "arrays that are not of the points' numbers");
+  content->faces = shape.faces.size();
+  content->corners = shape.faces.points.size();
+  content->tets = shape.tets.size();
+  shape.content = std::move(content);
+}
+
 bool fits_vtk(const Shape& shape, const VtkContent& content, VtkContent::Form form) {
   if (content.form != form || content.points.rows != shape.size() || content.faces != shape.faces.size() ||
-      content.corners != shape.faces.points.size())
+      content.corners != shape.faces.points.size() || content.tets != shape.tets.size())
     return false;
   return std::all_of(content.attributes.begin(), content.attributes.end(), [&](const VtkArray& array) {
     const Attribute* attribute = shape.find(array.name);

@@ -36,7 +36,7 @@ struct VtkContent : FileContent {
   std::vector<std::byte> bytes;
   VtkArray points;
   std::vector<VtkArray> attributes;
-  std::size_t faces = 0, corners = 0;  ///< of the shape
+  std::size_t faces = 0, corners = 0, tets = 0;  ///< of the shape
 };
 
 /// Throws InputError where `rows` of `components` cannot lie within `left` bytes of the file as the array's form has
@@ -60,6 +60,17 @@ void set_vtk_points(Shape& shape, Type type, std::span<const std::byte> values);
 /// Adds an attribute, and its array to the content.
 void add_vtk_attribute(Shape& shape, VtkContent& content, VtkArray array, Attribute attribute,
                        std::vector<std::byte> values);
+
+/// VTK's numbers of the types of cells that are read and written.
+enum VtkCell : std::int64_t { vtk_vertex = 1, vtk_triangle = 5, vtk_polygon = 7, vtk_quad = 9, vtk_tetra = 10 };
+inline bool is_vtk_face(std::int64_t type) {
+  return type == vtk_triangle || type == vtk_polygon || type == vtk_quad;
+}
+/// What is wrong with these corners of a tet; empty where nothing is, and then it was added.
+std::string add_vtk_tet(Shape& shape, std::span<const Index> corners);
+/// Completes the content from the shape that was read, and gives it to the shape. `others`: cells that are not of it;
+/// `arrays`: those that are not the points'.
+void keep_vtk(Shape& shape, std::shared_ptr<VtkContent> content, std::size_t others, std::size_t arrays);
 
 /// Whether the file can take the shape's points and attributes in place of those read.
 bool fits_vtk(const Shape& shape, const VtkContent& content, VtkContent::Form form);

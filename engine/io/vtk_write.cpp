@@ -56,28 +56,45 @@ void append_int(std::vector<std::byte>& out, std::size_t x) {
   out.insert(out.end(), bytes, bytes + sizeof(bytes));
 }
 
+void append_cell(std::vector<std::byte>& out, std::span<const Index> corners) {
+  append_int(out, corners.size());
+  for (const Index p : corners) append_int(out, p);
+}
+
+/// The polygons, or a vertex for each point where there are none; with tets, both as the cells of a grid.
+void append_cells(std::vector<std::byte>& out, const Shape& shape) {
+  const std::size_t n = shape.size(), faces = shape.faces.size(), tets = shape.tets.size();
+  const auto begin = [&out](const char* keyword, std::size_t cells, std::size_t corners) {
+    append_text(out, std::string(keyword) + " " + std::to_string(cells) + " " + std::to_string(cells + corners) + "\n");
+  };
+  if (tets > 0) {
+    begin("CELLS", faces + tets, shape.faces.points.size() + 4 * tets);
+  } else if (faces > 0) {
+    begin("POLYGONS", faces, shape.faces.points.size());
+  } else {
+    begin("VERTICES", n, n);
+    for (Index i = 0; i < n; ++i) append_cell(out, {&i, 1});
+  }
+  for (std::size_t f = 0; f < faces; ++f) append_cell(out, shape.faces[f]);
+  for (const Tet& tet : shape.tets) append_cell(out, tet);
+  append_text(out, "\n");
+  if (tets == 0) return;
+  append_text(out, "CELL_TYPES " + std::to_string(faces + tets) + "\n");
+  for (std::size_t i = 0; i < faces + tets; ++i) append_int(out, i < faces ? vtk_polygon : vtk_tetra);
+  append_text(out, "\n");
+}
+
 std::vector<std::byte> new_vtk(const std::string& path, const Shape& shape, WriteReport& report) {
-  const std::size_t n = shape.size(), faces = shape.faces.size(), numbers = faces + shape.faces.points.size();
+  const std::size_t n = shape.size();
+  const std::size_t numbers = shape.faces.size() + shape.faces.points.size() + 5 * shape.tets.size();
   const std::size_t most = std::numeric_limits<std::int32_t>::max();
   if (n > most / 2 || numbers > most) throw file_error(path, "a VTK file of less than 2^31 numbers of cells", "more");
   std::vector<std::byte> out;
-  append_text(out, "# vtk DataFile Version 3.0\npoints\nBINARY\nDATASET POLYDATA\nPOINTS " + std::to_string(n) + " " +
+  append_text(out, std::string("# vtk DataFile Version 3.0\npoints\nBINARY\nDATASET ") +
+                       (shape.tets.empty() ? "POLYDATA" : "UNSTRUCTURED_GRID") + "\nPOINTS " + std::to_string(n) + " " +
                        vtk_name(shape.position_type) + "\n");
   append_values(out, shape.position_type, new_vtk_points(shape, report));
-  if (faces == 0) {
-    append_text(out, "VERTICES " + std::to_string(n) + " " + std::to_string(2 * n) + "\n");
-    for (std::size_t i = 0; i < n; ++i) {
-      append_int(out, 1);
-      append_int(out, i);
-    }
-  } else {
-    append_text(out, "POLYGONS " + std::to_string(faces) + " " + std::to_string(numbers) + "\n");
-    for (std::size_t f = 0; f < faces; ++f) {
-      append_int(out, shape.faces[f].size());
-      for (const Index p : shape.faces[f]) append_int(out, p);
-    }
-  }
-  append_text(out, "\n");
+  append_cells(out, shape);
   const std::vector<Attribute> attributes = new_vtk_attributes(shape, "VTK", report);
   if (attributes.empty()) return out;
   append_text(out, "POINT_DATA " + std::to_string(n) + "\nFIELD FieldData " + std::to_string(attributes.size()) + "\n");
@@ -96,8 +113,8 @@ std::vector<std::byte> write_vtk(const std::string& path, const Shape& shape, Wr
   if (content && fits_vtk(shape, *content, VtkContent::Form::Legacy)) return patched_vtk(shape, *content, report);
   if (content && content->form == VtkContent::Form::Legacy)
     report.lost.push_back(
-        "What the VTK file held besides points, data of points and polygons is not written: the "
-        "points, attributes or faces are no longer those of the file.");
+        "What the VTK file held besides points, data of points, polygons and tets is not written: the "
+        "points, attributes, faces or tets are no longer those of the file.");
   return new_vtk(path, shape, report);
 }
 

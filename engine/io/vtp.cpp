@@ -49,7 +49,7 @@ class VtpReader {
     read_attributes();
     read_faces();
     refuse_overlap();
-    finish();
+    keep_vtk(shape_, content_, others_, kept_arrays_);
     return std::move(shape_);
   }
 
@@ -306,8 +306,19 @@ class VtpReader {
                                std::to_string(corners[k]));
         face.push_back(static_cast<Index>(corners[k]));
       }
-      add_face(face, !grid || types[f] == 5 || types[f] == 7 || types[f] == 9);
+      if (grid && types[f] == vtk_tetra) {
+        add_tet(face, f);
+      } else {
+        add_face(face, !grid || is_vtk_face(types[f]));
+      }
     }
+  }
+
+  void add_tet(const std::vector<Index>& corners, std::size_t cell) {
+    const std::string wrong = add_vtk_tet(shape_, corners);
+    if (!wrong.empty())
+      throw scanner_.error(find("Cells", "connectivity")->tag,
+                           "four different points of the tet that is cell " + std::to_string(cell), wrong);
   }
 
   void add_face(const std::vector<Index>& face, bool polygon) {
@@ -337,17 +348,6 @@ class VtpReader {
         throw byte_error(path_, static_cast<std::int64_t>(begin), "arrays that do not overlap",
                          "one that begins within another");
     }
-  }
-
-  void finish() {
-    const auto kept = [&](std::size_t count, const char* singular, const char* plural) {
-      if (count > 0) shape_.notes.push_back("Kept in the VTK file only: " + counted(count, singular, plural) + ".");
-    };
-    kept(others_, "cell that is no polygon", "cells that are no polygons");
-    kept(kept_arrays_, "array that is not of the points' numbers", "arrays that are not of the points' numbers");
-    content_->faces = shape_.faces.size();
-    content_->corners = shape_.faces.points.size();
-    shape_.content = std::move(content_);
   }
 
   std::string path_;

@@ -42,12 +42,12 @@ class NewVtp {
 
   std::vector<std::byte> bytes() {
     const std::string kind = grid_ ? "UnstructuredGrid" : "PolyData";
-    const std::size_t faces = shape_.faces.size(), n = shape_.size();
+    const std::size_t faces = shape_.faces.size(), n = shape_.size(), cells = faces + shape_.tets.size();
     text_ = "<?xml version=\"1.0\"?>\n<VTKFile type=\"" + kind +
             "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n  <" + kind +
             ">\n    <Piece NumberOfPoints=\"" + std::to_string(n) + "\"";
     if (grid_) {
-      text_ += " NumberOfCells=\"" + std::to_string(faces == 0 ? n : faces) + "\">\n";
+      text_ += " NumberOfCells=\"" + std::to_string(cells == 0 ? n : cells) + "\">\n";
     } else {
       text_ += " NumberOfVerts=\"" + std::to_string(faces == 0 ? n : 0) +
                "\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(faces) + "\">\n";
@@ -89,7 +89,8 @@ class NewVtp {
 
   void add_cells() {
     std::vector<std::int64_t> corners, ends;
-    const bool vertices = shape_.faces.empty();
+    const bool tets = grid_ && !shape_.tets.empty(), vertices = shape_.faces.empty() && !tets;
+    std::vector<std::byte> types;
     if (vertices) {
       for (std::size_t i = 0; i < shape_.size(); ++i) {
         corners.push_back(static_cast<std::int64_t>(i));
@@ -99,12 +100,17 @@ class NewVtp {
       corners.assign(shape_.faces.points.begin(), shape_.faces.points.end());
       ends.assign(shape_.faces.offsets.begin() + 1, shape_.faces.offsets.end());
     }
+    types.resize(ends.size(), static_cast<std::byte>(vertices ? vtk_vertex : vtk_polygon));
+    for (std::size_t t = 0; tets && t < shape_.tets.size(); ++t) {
+      corners.insert(corners.end(), shape_.tets[t].begin(), shape_.tets[t].end());
+      ends.push_back(static_cast<std::int64_t>(corners.size()));
+      types.push_back(static_cast<std::byte>(vtk_tetra));
+    }
     const std::string section = grid_ ? "Cells" : vertices ? "Verts" : "Polys";
     text_ += "      <" + section + ">\n";
     add("connectivity", corners);
     add("offsets", ends);
-    constexpr std::byte vertex{1}, polygon{7};  // VTK_VERTEX, VTK_POLYGON
-    if (grid_) add("types", Type::UInt8, 1, std::vector<std::byte>(ends.size(), vertices ? vertex : polygon));
+    if (grid_) add("types", Type::UInt8, 1, types);
     text_ += "      </" + section + ">\n";
   }
 
@@ -120,8 +126,8 @@ std::vector<std::byte> write(const Shape& shape, VtkContent::Form form, WriteRep
   if (content && fits_vtk(shape, *content, form)) return patched_vtk(shape, *content, report);
   if (content && content->form == form)
     report.lost.push_back(
-        "What the VTK file held besides points, data of points and polygons is not written: the "
-        "points, attributes or faces are no longer those of the file.");
+        "What the VTK file held besides points, data of points, polygons and tets is not written: the "
+        "points, attributes, faces or tets are no longer those of the file.");
   return NewVtp(shape, form == VtkContent::Form::UnstructuredGrid, report).bytes();
 }
 

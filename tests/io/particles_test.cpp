@@ -191,6 +191,12 @@ TEST(Particles, MeshesOfVtkComeBackExactly) {
   EXPECT_EQ(read_text(read_vtk, text_of_file(liver.string())).faces.size(), 10000u);
   SHARED_DATA(raptor, "tets/raptorTetra_8418.vtu");
   expect_exact(read_vtp, write_vtu, raptor.string());
+  Shape tets = read_text(read_vtp, text_of_file(raptor.string()));
+  EXPECT_EQ(tets.size(), 2996u);
+  EXPECT_EQ(tets.tets.size(), 8418u);
+  tets.content = nullptr;
+  EXPECT_EQ(read_text(read_vtk, write_text(write_vtk, tets)).tets, tets.tets);
+  EXPECT_EQ(read_text(read_vtp, write_text(write_vtu, tets)).tets, tets.tets);
   SHARED_DATA(broken, "malformed/sofa/Armadillo_Tetra_4406_for_test_broken.vtu");
   expect_refused_or_exact(read_vtp, write_vtu, broken.string());
 }

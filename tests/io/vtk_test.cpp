@@ -48,7 +48,7 @@ TEST(Vtk, ReadsAllSortsOfSections) {
   EXPECT_EQ(shape.find("Id")->number(3, 0), 4294967295.0);
   EXPECT_EQ(shape.find("velocity")->number(3, 0), 10);
   EXPECT_EQ(shape.notes,
-            (std::vector<std::string>{"Kept in the VTK file only: 2 cells that are no polygons.",
+            (std::vector<std::string>{"Kept in the VTK file only: 2 cells that are neither polygons nor tets.",
                                       "Kept in the VTK file only: 4 arrays that are not of the points' numbers."}));
 }
 
@@ -216,6 +216,64 @@ TEST(Vtk, SaysWhatIsLostWithTheLayout) {
   shape.faces = {};
   EXPECT_EQ(lost(write_vtk, shape).size(), 1u);
   EXPECT_EQ(read_text(read_vtk, write_text(write_vtk, shape)).size(), 4u);
+}
+
+const char* const grid =
+    "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 5 float\n"
+    "0.50 0 0 1 0 0 0 1 0 0 0 1.0 1 1 1\n"
+    "CELLS 6 25\n4 0 1 2 3\n3 0 1 2\n4 0 1 4 2\n1 0\n2 0 1\n5 0 1 2 3 4\n"
+    "CELL_TYPES 6\n10 5 9 1 3 14\n"
+    "POINT_DATA 5\nSCALARS s float\nLOOKUP_TABLE default\n1 2 3 4 5\n";
+
+TEST(Vtk, ReadsTheTetsAndFacesOfAGrid) {
+  Shape shape = read_text(read_vtk, grid);
+  expect_sound(shape, "grid");
+  EXPECT_EQ(shape.tets, (std::vector<Tet>{{0, 1, 2, 3}}));
+  EXPECT_EQ(shape.faces.points, (std::vector<Index>{0, 1, 2, 0, 1, 4, 2}));
+  EXPECT_EQ(shape.notes,
+            std::vector<std::string>{"Kept in the VTK file only: 2 cells that are neither polygons nor tets."});
+  EXPECT_EQ(write_text(write_vtk, shape), grid);
+  shape.positions[0].x() = 0.75;
+  std::string expected = grid;
+  expected.replace(expected.find("0.50"), 4, "0.75");
+  EXPECT_EQ(write_text(write_vtk, shape), expected);
+}
+
+TEST(Vtk, WritesTetsAsAGrid) {
+  for (const bool faces : {true, false}) {
+    Shape shape = read_text(read_vtk, grid);
+    shape.content = nullptr;
+    if (!faces) shape.faces = {};
+    const std::string text = write_text(write_vtk, shape);
+    EXPECT_NE(text.find("UNSTRUCTURED_GRID"), std::string::npos);
+    const Shape again = read_text(read_vtk, text);
+    EXPECT_EQ(again.tets, shape.tets);
+    EXPECT_EQ(again.faces.points, shape.faces.points);
+    EXPECT_EQ(again.faces.offsets, shape.faces.offsets);
+    EXPECT_EQ(again.positions, shape.positions);
+    EXPECT_EQ(again.find("s")->values, shape.find("s")->values);
+    EXPECT_TRUE(again.notes.empty());
+    EXPECT_EQ(write_text(write_vtk, again), text);
+  }
+}
+
+TEST(Vtk, RefusesTetsThatAreNone) {
+  const auto text = [](const std::string& cells) {
+    return "# vtk DataFile Version 2.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 float\n"
+           "0 0 0 1 0 0 0 1 0 0 0 1\n" +
+           cells;
+  };
+  EXPECT_EQ(refusal(read_vtk, text("CELLS 1 5\n4 0 1 2 4\nCELL_TYPES 1\n10\n")),
+            "test:9:12: expected cells of the 4 points, not of point 4, behind, found \"1\"");
+  EXPECT_EQ(refusal(read_vtk, text("CELLS 1 5\n4 0 1 2 1\nCELL_TYPES 1\n10\n")),
+            "test:9:12: expected tets of four different points, not of point 1 twice as cell 0, in front, found \"1\"");
+  EXPECT_EQ(
+      refusal(read_vtk, text("CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n10\n")),
+      "test:9:12: expected tets of four different points, not of one of 3 points as cell 0, in front, found \"1\"");
+  EXPECT_EQ(refusal(read_vtk, text("CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 2\n10 10\n")),
+            "test:9:12: expected types of the 1 cells in front of them, found \"2\"");
+  EXPECT_EQ(refusal(read_vtk, text("CELLS 1 5\n4 0 1 2 3\nCELLS 1 5\n4 0 1 2 3\n")),
+            "test:9:1: expected one section CELLS, found \"CELLS\"");
 }
 
 }  // namespace

@@ -65,7 +65,7 @@ TEST(Vtp, ReadsAscii) {
   EXPECT_EQ(shape.find("f & g")->number(2, 2), 1.5);
   EXPECT_EQ(shape.find("normal")->kind, Kind::Normal);
   EXPECT_EQ(shape.notes,
-            (std::vector<std::string>{"Kept in the VTK file only: 1 cell that is no polygon.",
+            (std::vector<std::string>{"Kept in the VTK file only: 1 cell that is neither polygon nor tet.",
                                       "Kept in the VTK file only: 1 array that is not of the points' numbers."}));
 }
 
@@ -263,6 +263,47 @@ TEST(Xml, WalksOverTags) {
   tag = scanner.next();
   EXPECT_TRUE(!tag.opens && tag.closes);
   EXPECT_TRUE(scanner.next().name.empty());
+}
+
+std::string grid(const std::string& corners, const std::string& ends, const std::string& types, int cells) {
+  return "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid><Piece NumberOfPoints=\"5\" NumberOfCells=\"" +
+         std::to_string(cells) +
+         "\">\n<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\">0.50 0 0 1 0 0 0 1 0 0 0 1 1 1 "
+         "1</DataArray>"
+         "</Points>\n<Cells>\n<DataArray type=\"Int32\" Name=\"connectivity\">" +
+         corners + "</DataArray><DataArray type=\"Int32\" Name=\"offsets\">" + ends +
+         "</DataArray><DataArray type=\"UInt8\" Name=\"types\">" + types +
+         "</DataArray></Cells></Piece></UnstructuredGrid></VTKFile>";
+}
+
+TEST(Vtu, ReadsAndWritesTetsAndFaces) {
+  const std::string text = grid("0 1 2 3 0 1 2 0 1 4 2 0 1", "4 7 11 13", "10 5 9 3", 4);
+  Shape shape = read_text(read_vtp, text);
+  expect_sound(shape, "grid");
+  EXPECT_EQ(shape.tets, (std::vector<Tet>{{0, 1, 2, 3}}));
+  EXPECT_EQ(shape.faces.points, (std::vector<Index>{0, 1, 2, 0, 1, 4, 2}));
+  EXPECT_EQ(shape.notes,
+            std::vector<std::string>{"Kept in the VTK file only: 1 cell that is neither polygon nor tet."});
+  EXPECT_EQ(write_text(write_vtu, shape), text);
+  shape.content = nullptr;
+  for (const bool faces : {true, false}) {
+    if (!faces) shape.faces = {};
+    const Shape again = read_text(read_vtp, write_text(write_vtu, shape));
+    EXPECT_EQ(again.tets, shape.tets);
+    EXPECT_EQ(again.faces.points, shape.faces.points);
+    EXPECT_EQ(again.positions, shape.positions);
+    EXPECT_TRUE(again.notes.empty());
+  }
+  EXPECT_TRUE(read_text(read_vtp, write_text(write_vtp, shape)).tets.empty());
+}
+
+TEST(Vtu, RefusesTetsThatAreNone) {
+  EXPECT_EQ(refusal(read_vtp, grid("0 1 2 5", "4", "10", 1)),
+            "test:4:1: expected the numbers from 0 of some of 5 points, found 5");
+  EXPECT_EQ(refusal(read_vtp, grid("0 1 2 3 0 1 2 1", "4 8", "10 10", 2)),
+            "test:4:1: expected four different points of the tet that is cell 1, found point 1 twice");
+  EXPECT_EQ(refusal(read_vtp, grid("0 1 2", "3", "10", 1)),
+            "test:4:1: expected four different points of the tet that is cell 0, found one of 3 points");
 }
 
 }  // namespace
