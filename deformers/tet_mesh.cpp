@@ -69,8 +69,8 @@ void keep_solid(const TetSurface& surface, const TetAnswer& answer, TetMesh& mes
   }
   const double enclosed = enclosed_volume(surface);
   if (!(std::abs(sum - enclosed) <= 1e-9 * std::abs(enclosed)))
-    throw InputError("expected tets of the volume that the faces enclose, " + std::to_string(enclosed) + ", found " +
-                     std::to_string(sum));
+    throw InputError("expected tets of the volume that the faces enclose, " + number_text(enclosed) + ", found " +
+                     number_text(sum));
   for (Index t = 0; t < answer.tets.size(); ++t)
     if (winding[answer.regions[t]] != 0) mesh.tets.push_back(answer.tets[t]);
 }

@@ -195,7 +195,8 @@ TetAnswer answer_of(const std::string& path, const std::string& text, std::size_
 }
 
 InputError too_long(const TetLimits& limits) {
-  return InputError("expected tets within " + std::to_string(static_cast<int>(std::ceil(limits.seconds))) +
+  return InputError("expected tets within " +
+                    std::to_string(static_cast<int>(std::ceil(std::clamp(limits.seconds, 0.0, 1e6)))) +
                     " seconds, found none; fewer vertices take less time");
 }
 

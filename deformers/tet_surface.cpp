@@ -61,8 +61,8 @@ void check_corners(const Shape& shape) {
         infinite.push_back(static_cast<Index>(f));
     }
   if (!infinite.empty())
-    throw InputError("expected faces with finite points, found points that are not in " +
-                     counted(infinite.size(), "face", "faces") + ": " + list_text(infinite));
+    throw InputError("expected faces with finite points, found others in " + counted(infinite.size(), "face", "faces") +
+                     ": " + list_text(infinite));
 }
 
 /// Faces as triangles over the vertices; returns how many faces were left out because they have fewer than three
@@ -115,23 +115,28 @@ std::size_t drop_duplicates(TetSurface& surface) {
   return twice.size() - kept;
 }
 
-/// Throws where all vertices lie in one plane, to a billionth of their extent.
+/// Throws where all vertices lie on one line or in one plane, to a billionth of their extent.
 void check_extent(const TetSurface& surface) {
   const std::vector<Vec3>& p = surface.vertices;
   const auto farthest = [&](const auto& distance) {
     return *std::max_element(p.begin(), p.end(),
                              [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
   };
+  if (surface.triangles.empty())
+    throw InputError("expected faces that close around a solid, found faces that have no area");
   if (p.size() < 4)
     throw InputError("expected faces that close around a solid, found " + counted(p.size(), "corner", "corners") +
                      " in different places");
   const Vec3 b = farthest([&](const Vec3& q) { return (q - p[0]).norm(); });
   const double extent = (b - p[0]).norm();
   if (!(extent < 1e100) || !(extent > 1e-100))
-    throw InputError("expected faces of a size between 1e-100 and 1e100, found " + std::to_string(extent));
+    throw InputError("expected faces of a size between 1e-100 and 1e100, found " + number_text(extent));
   const Vec3 along = (b - p[0]) / extent;
   const Vec3 c = farthest([&](const Vec3& q) { return (q - p[0]).cross(along).norm(); });
-  const Vec3 normal = (c - p[0]).cross(along).normalized();
+  const Vec3 across = (c - p[0]).cross(along);
+  if (!(across.norm() > 1e-9 * extent))
+    throw InputError("expected faces that close around a solid, found that all lie on one line");
+  const Vec3 normal = across.normalized();
   const Vec3 d = farthest([&](const Vec3& q) { return std::abs((q - p[0]).dot(normal)); });
   if (!(std::abs((d - p[0]).dot(normal)) > 1e-9 * extent))
     throw InputError("expected faces that close around a solid, found that all lie in one plane");
@@ -220,11 +225,22 @@ std::string counted(std::size_t count, const char* one, const char* more) {
   return std::to_string(count) + " " + (count == 1 ? one : more);
 }
 
-std::string place_text(const Shape& shape, const Vec3& position) {
-  const Vec3 place = position + shape.origin;
-  char text[100];
-  std::snprintf(text, sizeof(text), "(%.6g, %.6g, %.6g)", place.x(), place.y(), place.z());
+std::string number_text(double value) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.6g", value);
   return text;
+}
+
+std::string place_text(const Shape& shape, const Vec3& position) {
+  double extent = 0;
+  for (const Vec3& p : shape.positions)
+    if (p.allFinite()) extent = std::max(extent, p.cwiseAbs().maxCoeff());
+  std::string text;
+  for (int k = 0; k < 3; ++k) {
+    const double own = std::abs(position[k]) < 1e-9 * extent ? 0 : position[k];  // not what rounding left
+    text += (k == 0 ? "(" : ", ") + number_text(own + shape.origin[k]);
+  }
+  return text + ")";
 }
 
 std::string list_text(const std::vector<Index>& numbers, std::size_t most) {

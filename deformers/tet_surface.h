@@ -34,6 +34,9 @@ int winding_number(const TetSurface& surface, const Vec3& point);
 /// "1 face", "2 faces".
 std::string counted(std::size_t count, const char* one, const char* more);
 
+/// Six digits.
+std::string number_text(double value);
+
 /// "(x, y, z)" in the file's coordinates.
 std::string place_text(const Shape& shape, const Vec3& position);
 

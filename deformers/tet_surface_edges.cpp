@@ -130,6 +130,7 @@ void check_edges(const Shape& shape, const TetSurface& surface) {
     if (!first.empty()) return;
     std::vector<Index> faces;
     for (const Edge& edge : same) faces.push_back(surface.faces[edge.triangle]);
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());  // ascending, as triangles are
     first = "between points " + std::to_string(surface.points[same[0].low]) + " and " +
             std::to_string(surface.points[same[0].high]) + " in faces " + list_text(faces) + " at " +
             place_text(shape, surface.vertices[same[0].low]);
