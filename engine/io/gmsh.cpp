@@ -216,7 +216,10 @@ Shape read_gmsh(const std::string& path, std::vector<std::byte> bytes, const Rea
 
 std::vector<std::byte> write_gmsh(const std::string&, const Shape& shape, WriteReport& report) {
   const auto* content = dynamic_cast<const GmshContent*>(shape.content.get());
-  if (!content || !fits_solid(shape, *content)) return generic(shape, report);
+  if (!content || !fits_solid(shape, *content)) {
+    if (content) report_lost_rest("Gmsh", report);
+    return generic(shape, report);
+  }
   report_lost_attributes("Gmsh", shape, {}, report);
   return patched_solid(shape, *content, 0);
 }

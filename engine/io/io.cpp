@@ -197,10 +197,8 @@ WriteReport write(const std::string& path, const Shape& shape, bool force, const
   refuse_existing(path, force);
   WriteReport report;
   const std::vector<NamedBytes> files = files_of(format, path, shape, report);
-  if (files.size() == 1)
-    save_bytes(path, files.front().bytes, force);
-  else
-    save_files("", files, force);
+  for (const NamedBytes& file : files) refuse_existing(file.name, force);
+  for (const NamedBytes& file : files) save_bytes(file.name, file.bytes, force);
   return report;
 }
 

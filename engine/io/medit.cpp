@@ -179,8 +179,10 @@ Shape read_medit(const std::string& path, std::vector<std::byte> bytes, const Re
 
 std::vector<std::byte> write_medit(const std::string&, const Shape& shape, WriteReport& report) {
   const auto* content = dynamic_cast<const MeditContent*>(shape.content.get());
-  if (!content || !fits_solid(shape, *content) || (content->attributes.empty() && label_of(shape)))
+  if (!content || !fits_solid(shape, *content) || (content->attributes.empty() && label_of(shape))) {
+    if (content) report_lost_rest("Medit", report);
     return generic(shape, report);
+  }
   report_lost_attributes("Medit", shape, content->attributes, report);
   return patched_solid(shape, *content, '#');
 }

@@ -155,6 +155,12 @@ std::vector<std::byte> patched_solid(const Shape& shape, const SolidContent& con
   return patch.finish();
 }
 
+void report_lost_rest(const std::string& format, WriteReport& report) {
+  report.lost.push_back("What the " + format +
+                        " file held besides points, faces and tets is not written: they are no longer those of the "
+                        "file.");
+}
+
 const Attribute* label_of(const Shape& shape) {
   const Attribute* label = shape.find("label");
   if (!label || !label->per_point() || label->components != 1 || !is_integer(label->type)) return nullptr;

@@ -82,6 +82,9 @@ bool fits_solid(const Shape& shape, const SolidContent& content);
 /// The file of the points with those numbers replaced that have changed.
 std::vector<std::byte> patched_solid(const Shape& shape, const SolidContent& content, char comment);
 
+/// Says of a file that cannot take the shape what is not written of it.
+void report_lost_rest(const std::string& format, WriteReport& report);
+
 /// The label of each point, as the formats hold it: whole numbers of 32 bits, one a point. Null where the shape has
 /// none.
 const Attribute* label_of(const Shape& shape);

@@ -180,6 +180,7 @@ void report_losses(const Shape& shape, WriteReport& report) {
     report_lost_attributes("TetGen", shape, content->attributes, report);
     return;
   }
+  if (dynamic_cast<const TetgenContent*>(shape.content.get())) report_lost_rest("TetGen", report);
   if (label_of(shape)) held.push_back("label");
   int column = 1;
   for (const Attribute* attribute : columns_of(shape)) {

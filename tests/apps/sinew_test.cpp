@@ -102,6 +102,36 @@ TEST_F(Sinew, InfoSaysWhatAFileHolds) {
   EXPECT_EQ(run_sinew({"info", "-", "--from", "ply"}, sheet_ply()).status, 0);
 }
 
+TEST_F(Sinew, TetsAreCountedAndConverted) {
+  save(folder / "a.mesh",
+       "MeshVersionFormatted 1\nDimension 3\nVertices 5\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 1 1 0\n"
+       "Triangles 1\n1 2 3 0\nTetrahedra 2\n1 2 3 4 0\n2 3 4 5 0\nEnd\n");
+  EXPECT_NE(run_sinew({"info", folder / "a.mesh"}).out.find("tets            2\n"), std::string::npos);
+  std::string last = "a.mesh";
+  for (const char* name : {"b.ele", "c.msh", "d.vtu", "e.vtk", "f.node", "g.mesh"}) {
+    const Outcome done = run_sinew({"convert", folder / last, folder / name});
+    EXPECT_EQ(done.status, 0) << done.err;
+    EXPECT_EQ(done.err, "") << name;
+    const Json info = Json::parse(run_sinew({"info", "--json", folder / name}).out);
+    EXPECT_EQ(info["representation"], "solid mesh") << name;
+    EXPECT_EQ(info["points"], 5) << name;
+    EXPECT_EQ(info["faces"], 1) << name;
+    EXPECT_EQ(info["tets"], 2) << name;
+    EXPECT_EQ(info["components"], 1) << name;
+    last = name;
+  }
+  EXPECT_EQ(run_sinew({"convert", folder / "g.mesh", out}).err, "sinew: " + out + ": PLY cannot hold 2 tets.\n");
+  EXPECT_EQ(Json::parse(run_sinew({"info", "--json", out}).out)["tets"], 0);
+  // The files of TetGen are compared as one.
+  EXPECT_EQ(run_sinew({"convert", folder / "a.mesh", folder / "h.node"}).status, 0);
+  const auto rest = [&] {
+    return Json::parse(run_sinew({"diff", "--json", folder / "f.node", folder / "h.node"}).out)["rest"];
+  };
+  EXPECT_EQ(rest(), "equal");
+  save(folder / "h.ele", "2 4 0\n1 1 2 3 4\n2 2 3 5 4\n");
+  EXPECT_EQ(rest(), "changed");
+}
+
 TEST_F(Sinew, BadInputIsStatus3AndLeavesNothing) {
   save(scan, sheet_ply().substr(0, 2000));
   const Outcome cut = run_sinew({"deform", scan, "--edit", edit, "-o", out, "--report", folder / "r.json"});

@@ -144,6 +144,9 @@ TEST(Medit, OtherTetsThanThoseOfTheFileAreANewFile) {
   Shape shape = read_text(read_medit, with("Tetrahedra 1\n1 2 3 4 5\nEnd\n"));
   shape.tets.push_back({0, 1, 2, 3});
   EXPECT_EQ(read_text(read_medit, write_text(write_medit, shape)).tets, shape.tets);
+  EXPECT_EQ(lost(write_medit, shape),
+            std::vector<std::string>{"What the Medit file held besides points, faces and tets is not written: they are "
+                                     "no longer those of the file."});
 }
 
 TEST(Medit, OtherFormatsSayThatTetsAreLost) {

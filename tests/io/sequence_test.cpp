@@ -36,6 +36,23 @@ FrameWriterOptions with(std::vector<int> frames) {
 
 }  // namespace
 
+TEST(Sequence, FramesOfTetsSayOnceThatTheyAreLost) {
+  const TemporaryFolder folder;
+  for (const char* name : {"a.pc2", "a.mdd", "a.gltf", "a.####.ply", "a.####.mesh"}) {
+    const auto writer = create_frames(folder / name, with({1, 2}));
+    for (const int frame : {1, 2}) {
+      Shape shape = shape_of(frame);
+      shape.positions.emplace_back(0, 0, -1);
+      shape.tets = {{0, 1, 2, 3}};
+      writer->write(frame, shape);
+    }
+    const std::vector<std::string> lost = writer->commit().lost;
+    const auto count =
+        std::count_if(lost.begin(), lost.end(), [](const std::string& s) { return s.ends_with("cannot hold 1 tet."); });
+    EXPECT_EQ(count, std::string(name).ends_with("mesh") ? 0 : 1) << name;
+  }
+}
+
 TEST(Sequence, ARunIsWrittenAndFoundAgain) {
   const TemporaryFolder folder;
   const std::string path = folder / "run.####.ply";
