@@ -27,6 +27,7 @@ target_include_directories(sinew-tets SYSTEM PRIVATE ${TETGEN_INCLUDE_DIR})
 target_compile_definitions(sinew-tets PRIVATE TETLIBRARY)
 target_link_libraries(sinew-tets PRIVATE sinew_common ${TETGEN_LIBRARY})
 set_target_properties(sinew-tets PROPERTIES ENABLE_EXPORTS ON)
+add_dependencies(sinew_deformers sinew-tets)  # which starts it
 
 # The editor without its window: everything that can be tested without a display.
 set(SINEW_EDITOR_CORE background commands figures keys lod manipulation marks navigation point_set preferences repeatable

@@ -37,7 +37,8 @@ struct Ear {
 
 }  // namespace
 
-std::vector<std::array<Index, 3>> polygon_ears(std::span<const Vec3> polygon) {
+std::vector<std::array<Index, 3>> polygon_ears(std::span<const Vec3> polygon,
+                                               const std::function<bool(Index, Index)>& may_join) {
   std::vector<std::array<Index, 3>> triangles;
   std::vector<Index> left(polygon.size());
   std::iota(left.begin(), left.end(), Index{0});
@@ -47,6 +48,8 @@ std::vector<std::array<Index, 3>> polygon_ears(std::span<const Vec3> polygon) {
     return Ear{polygon[left[(k + n - 1) % n]], polygon[left[k]], polygon[left[(k + 1) % n]], normal};
   };
   const auto free = [&](std::size_t k) {
+    const std::size_t n = left.size();
+    if (may_join && !may_join(left[(k + n - 1) % n], left[(k + 1) % n])) return false;
     const Ear tip = ear(k);
     for (std::size_t i = 0; i < left.size(); ++i) {
       const Vec3& p = polygon[left[i]];

@@ -238,7 +238,8 @@ std::optional<TetAnswer> run_tets(tets::Job job, const std::vector<Vec3>& points
   if (code == tets::BadUse) throw no_answer(path, "a program that does not take what this one asks");
   if (code != tets::Done) {
     answer.how = code == tets::Crossing ? TetAnswer::How::Crossing : TetAnswer::How::Failed;
-    answer.why = code < 0               ? "that it was ended by " + signal_name(process.signal())
+    answer.why = code == tets::Crossing ? "faces that touch or cross"
+                 : code < 0             ? "that it was ended by " + signal_name(process.signal())
                  : code == tets::Failed ? "that TetGen gave up"
                                         : "that it ended with status " + std::to_string(code);
     return answer;

@@ -251,4 +251,16 @@ std::string list_text(const std::vector<Index>& numbers, std::size_t most) {
   return text;
 }
 
+std::string faces_text(const TetSurface& surface, const std::vector<Index>& triangles) {
+  std::vector<Index> faces;
+  for (const Index t : triangles) faces.push_back(surface.faces[t]);
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  const bool closing = !faces.empty() && faces.back() == TetSurface::no_face;
+  if (closing) faces.pop_back();
+  const std::string closes = closing ? "what closes holes" : "";
+  if (faces.empty()) return closes;
+  return counted(faces.size(), "face", "faces") + ": " + list_text(faces) + (closing ? " and " + closes : "");
+}
+
 }  // namespace sinew

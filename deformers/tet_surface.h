@@ -43,4 +43,8 @@ std::string place_text(const Shape& shape, const Vec3& position);
 /// "3, 17, 20 and 5 more": at most `most` of the numbers.
 std::string list_text(const std::vector<Index>& numbers, std::size_t most = 5);
 
+/// "7 faces: 3, 17, 20, 21, 22 and 2 more": those that the triangles are of, and "what closes holes" where one closes
+/// one.
+std::string faces_text(const TetSurface& surface, const std::vector<Index>& triangles);
+
 }  // namespace sinew

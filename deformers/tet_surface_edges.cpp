@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "deformers/polygon_ears.h"
 #include "engine/geometry/error.h"
@@ -128,11 +129,10 @@ void check_edges(const Shape& shape, const TetSurface& surface) {
     if (same.size() <= 2) return;
     ++count;
     if (!first.empty()) return;
-    std::vector<Index> faces;
-    for (const Edge& edge : same) faces.push_back(surface.faces[edge.triangle]);
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());  // ascending, as triangles are
+    std::vector<Index> triangles;
+    for (const Edge& edge : same) triangles.push_back(edge.triangle);
     first = "between points " + std::to_string(surface.points[same[0].low]) + " and " +
-            std::to_string(surface.points[same[0].high]) + " in faces " + list_text(faces) + " at " +
+            std::to_string(surface.points[same[0].high]) + " in " + faces_text(surface, triangles) + ", at " +
             place_text(shape, surface.vertices[same[0].low]);
   });
   if (count > 0)
@@ -146,10 +146,15 @@ std::size_t close_holes_of(const Shape& shape, int longest, TetSurface& surface)
   for (const Loop& hole : holes)
     if (static_cast<std::ptrdiff_t>(hole.size()) > longest || hole.size() < 3) open.push_back(hole);
   if (!open.empty()) throw open_error(shape, surface, open);
+  std::set<std::pair<Index, Index>> ends;
+  if (!holes.empty())
+    for (const Edge& edge : sorted_edges(surface)) ends.insert(edge.ends());
   for (const Loop& hole : holes) {
     std::vector<Vec3> places;
     for (const Index v : hole) places.push_back(surface.vertices[v]);
-    for (const Triangle& t : polygon_ears(places)) {
+    const auto apart = [&](Index a, Index b) { return !ends.contains(std::minmax({hole[a], hole[b]})); };
+    for (const Triangle& t : polygon_ears(places, apart)) {
+      for (std::size_t k = 0; k < 3; ++k) ends.insert(std::minmax({hole[t[k]], hole[t[(k + 1) % 3]]}));
       surface.triangles.push_back({hole[t[0]], hole[t[1]], hole[t[2]]});
       surface.faces.push_back(TetSurface::no_face);
     }
@@ -250,12 +255,12 @@ std::size_t join_flat_triangles(TetSurface& surface) {
     joined += changed;
     if (changed == 0) break;
   }
-  std::vector<Index> faces;
+  std::vector<Index> left;
   for (Index t = 0; t < surface.triangles.size(); ++t)
-    if (flat_edge(surface, surface.triangles[t]) < 3) faces.push_back(surface.faces[t]);
-  if (faces.empty()) return joined;
-  throw InputError("expected faces with an area, found " + counted(faces.size(), "face", "faces") +
-                   " without one that cannot be joined with neighbours: " + list_text(faces));
+    if (flat_edge(surface, surface.triangles[t]) < 3) left.push_back(t);
+  if (left.empty()) return joined;
+  throw InputError("expected faces with an area, found none that can be had by joining neighbours in " +
+                   faces_text(surface, left));
 }
 
 }  // namespace sinew

@@ -23,6 +23,13 @@ namespace {
 
 using namespace sinew::tets;
 
+// TetGen's switches: p surface, Y keep it as it is, A number regions, q1.414 better tets by vertices inside, d only
+// look for crossings, Q quiet. T: what is one plane; its own 1e-8 takes bent faces for flat ones, and then turns tets
+// inside out.
+constexpr const char* fill = "pYAT1e-12Q";
+constexpr const char* fill_inside = "pq1.414YAT1e-12Q";
+constexpr const char* look_for_crossings = "pdT1e-12Q";
+
 /// Two descriptors: the reply's, and what TetGen prints goes nowhere.
 int take_standard_output() {
   const int reply = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
@@ -35,7 +42,7 @@ int take_standard_output() {
 void set_limit(__rlimit_resource what, rlim_t value) {
   rlimit limit{};
   getrlimit(what, &limit);
-  limit.rlim_cur = std::min(value, limit.rlim_max);  // the lower of two: above it, time would end it without a name
+  limit.rlim_cur = std::min(value, limit.rlim_max);  // past the hard one, time ends a process without SIGXCPU
   setrlimit(what, &limit);
 }
 
@@ -98,7 +105,7 @@ void append(std::string& text, const T* values, std::size_t count) {
 }
 
 std::string filled(const Request& request, tetgenio& surface) {
-  std::string switches = request.job == Job::Fill ? "pYAQ" : "pq1.414YAQ";
+  std::string switches = request.job == Job::Fill ? fill : fill_inside;
   tetgenio out;
   tetrahedralize(switches.data(), &surface, &out);
   Reply reply;
@@ -124,7 +131,7 @@ std::string filled(const Request& request, tetgenio& surface) {
 }
 
 std::string crossings(tetgenio& surface) {
-  std::string switches = "pdQ";
+  std::string switches = look_for_crossings;
   tetgenio out;
   tetrahedralize(switches.data(), &surface, &out);
   std::vector<std::uint32_t> triangles;
@@ -151,6 +158,20 @@ bool write_all(int to, const std::string& text) {
   return true;
 }
 
+Outcome answer_to(const std::string& input, int reply) {
+  try {
+    Request request;
+    tetgenio surface;
+    if (!read_surface(input, request, surface)) return BadUse;
+    const std::string text = request.job == Job::Crossings ? crossings(surface) : filled(request, surface);
+    return write_all(reply, text) ? Done : Failed;
+  } catch (int code) {  // TetGen's: 1 memory, 3 crossing faces, 2 and above 3 its own mistakes or limits
+    return code == 1 ? NoMemory : code == 3 ? Crossing : Failed;
+  } catch (const std::bad_alloc&) {
+    return NoMemory;
+  }
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -164,14 +185,8 @@ int main(int count, char** arguments) {
 #endif
   const int reply = take_standard_output();
   try {
-    Request request;
-    tetgenio surface;
-    if (!read_surface(all_input(), request, surface)) return BadUse;
-    const std::string text = request.job == Job::Crossings ? crossings(surface) : filled(request, surface);
-    return write_all(reply, text) ? Done : Failed;
-  } catch (int code) {  // TetGen's: 1 memory, 3 crossing faces, 2 and above 3 its own mistakes or limits
-    return code == 1 ? NoMemory : code == 3 ? Crossing : Failed;
+    _exit(answer_to(all_input(), reply));  // at once: what TetGen left behind is no matter
   } catch (const std::bad_alloc&) {
-    return NoMemory;
+    _exit(NoMemory);
   }
 }

@@ -139,7 +139,6 @@ struct Solid {
 };
 
 std::vector<Solid> solids() {
-  const Shape ball = with_faces(box(), [](std::size_t) { return true; });
   const double inner = enclosed(sphere(Vec3::Zero(), 0.5));
   return {
       {"tetrahedron", tetrahedron(), 1, 1.0 / 6},
@@ -195,7 +194,7 @@ TEST(TetMesh, AnyUnitGivesTheSameTets) {
     for (const bool inside : {false, true}) {
       const TetMeshOptions options{.vertices = 100000, .inside = inside};
       const TetMesh mesh = made(shape, options).mesh;
-      for (const double scale : {1024.0, 0x1p-10, 0x1p100, 0x1p-100, 1000.0, 1e-3}) {
+      for (const double scale : {0x1p100, 0x1p-100, 1000.0, 1e-3}) {
         const Shape scaled = moved(shape, [&](const Vec3& p) { return Vec3(p * scale); });
         const TetMesh other = made(scaled, options).mesh;
         check(scaled, other);
@@ -365,8 +364,8 @@ TEST(TetMesh, RealMeshes) {
       {"lion.off", "a hole of 36 edges around (40.6565, 0.478377, -13.5383)"},
       {"camelhead.off", "a hole of 56 edges around ("},
       {"elephant.ply", "6 holes, the largest of 38 edges around (3.03767, 1.72598, 13.2046)"},
-      {"bun_zipper_res2.ply", "125 edges of more: the first between points 2 and 443 in faces 6382, 6387, 6997"},
-      {"camel_b.obj", "20 faces cross others: 1701, 1931, 1932"},
+      {"bun_zipper_res2.ply", "125 edges of more: the first between points 2 and 443 in 3 faces: 6382, 6387, 6997"},
+      {"camel_b.obj", "crossings of 20 faces: 1701, 1931, 1932"},
   };
   for (const auto& row : rows)
     for (const int vertices : {1000, 1000000}) {

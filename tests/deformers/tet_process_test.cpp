@@ -17,6 +17,7 @@
 
 #include "deformers/tet_mesh.h"
 #include "engine/geometry/error.h"
+#include "engine/geometry/random.h"
 #include "tests/deformers/tet_shapes.h"
 
 namespace sinew {
@@ -173,27 +174,27 @@ std::vector<Row> planted() {
       {"an index beyond", give, changed([](Reply& r) { r.tets[4][2] = 8; }), "vertex 8 in tet 4 of 8 vertices"},
       {"an index far beyond", give, changed([](Reply& r) { r.tets[0][0] = ~0u; }), "vertex 4294967295 in tet 0"},
       {"a tet turned", give, changed([](Reply& r) { std::swap(r.tets[3][0], r.tets[3][1]); }),
-       "positive volume, found tet 3"},
+       "found tet 3 of volume -"},
       {"all tets turned", give, changed([](Reply& r) {
          for (Tet& t : r.tets) std::swap(t[0], t[1]);
        }),
-       "positive volume"},
+       "found tet 0 of volume -"},
       {"a tet of one vertex", give, changed([](Reply& r) {
          r.tets[1] = {3, 3, 3, 3};
        }),
-       "positive volume, found tet 1"},
+       "found tet 1 of volume 0"},
       {"a tet left out", give, changed([](Reply& r) {
          r.tets.pop_back();
          r.regions.pop_back();
        }),
-       "of the volume that the faces enclose, 1, found 0.833333"},
+       "found tets of volume 0.833333 where the faces enclose 1"},
       {"a tet twice", give, changed([](Reply& r) {
          r.tets.push_back(r.tets[2]);
          r.regions.push_back(1);
        }),
-       "enclose, 1, found 1.33333"},
+       "found tets of volume 1.33333 where the faces enclose 1"},
       {"a region of its own number", give, changed([](Reply& r) { r.regions[2] = ~0u; }),
-       "found one numbered 4294967295"},
+       "found a region numbered 4294967295"},
       {"a vertex that is no number", give,
        changed([](Reply& r) { r.added.emplace_back(0, std::numeric_limits<double>::quiet_NaN(), 0); }),
        "a vertex that is not finite"},
@@ -201,7 +202,7 @@ std::vector<Row> planted() {
          r.tets.clear();
          r.regions.clear();
        }),
-       "found none, though no faces cross"},
+       "found none; no faces cross"},
       {"crossings where there is no triangle", "cat > /dev/null; cat reply", changed([](Reply& r) {
          r.tets.clear();
          r.regions.clear();
@@ -227,6 +228,23 @@ TEST(TetProcess, PlantedOnesAreCaught) {
 TEST(TetProcess, AGoodAnswerPasses) {
   const Planted script("cat > /dev/null; exec cat reply", Reply().text());
   EXPECT_EQ(outcome(), "5 tets") << "or the rows above would be caught for something else";
+}
+
+TEST(TetProcess, ChangedAnswersAreCaughtOrHarmless) {
+  const std::string good = Reply().text();
+  std::size_t caught = 0;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    std::string text = good;
+    for (std::uint64_t k = 0; k < 1 + i % 3; ++k) {
+      const auto at = static_cast<std::size_t>(random_unit(3 * i + k, 1) * static_cast<double>(text.size()));
+      text[at] = static_cast<char>(256 * random_unit(3 * i + k, 2));
+    }
+    const Planted script("cat > /dev/null; exec cat reply", text);
+    const std::string said = outcome();
+    EXPECT_TRUE(said == "5 tets" || said.find("expected ") != std::string::npos) << said;
+    caught += said != "5 tets";
+  }
+  EXPECT_GT(caught, 100u);
 }
 
 TEST(TetProcess, OnesThatHangAreEnded) {
