@@ -118,6 +118,10 @@ std::optional<TetMesh> filled_decimated(const Work& work, const TetSurface& surf
     if (filled.why.empty()) return std::move(filled.mesh);
     tried += (tried.empty() ? "" : ", ") + count;
   }
+  if (wanted >= surface.vertices.size()) {
+    work.notes.push_back("all " + all + " vertices kept; decimated to " + tried + " the faces crossed");
+    return filled_whole(work, surface);
+  }
   explain(work, surface, [&](bool) {
     return InputError("expected faces that do not cross when decimated, found that they do with " + tried + " of " +
                       all + " vertices; more vertices keep them apart");

@@ -43,6 +43,10 @@ struct TetMeshOptions {
 /// (points that lie on each other taken as one, faces without area), with its count. Throws InputError with a sentence
 /// that names the faces or the holes where the faces bound no solid: none, open, not manifold, crossing themselves,
 /// flat. Throws InputError, too, where making them took too long or too much memory. Null where progress said false.
+///
+/// Faces are numbered from 0, places are in the file's coordinates. Parts may lie in each other: what the faces wind
+/// around is solid, so one that is wound against the one around it is a cavity. A surface that crosses itself when
+/// decimated is tried with more vertices. TetGen runs in a process of its own, sinew-tets (deformers/tet_process.h).
 std::optional<TetMesh> tetrahedralized(const Shape& shape, const TetMeshOptions& options,
                                        std::vector<std::string>& notes,
                                        const std::function<bool(double)>& progress = {});

@@ -384,6 +384,14 @@ TEST(TetMesh, RealMeshes) {
     }
 }
 
+TEST(TetMesh, AllVerticesAreKeptWhereFewerCross) {
+  SHARED_DATA(path, "meshes/decimated-max.obj");
+  const auto shape = io::read(path.string());
+  const auto [mesh, notes] = made(*shape, {.vertices = 5000});
+  check(*shape, mesh);
+  EXPECT_EQ(notes, "all 5272 vertices kept; decimated to 5000 the faces crossed; ");
+}
+
 TEST(TetMesh, TheBenchmarksBarIsClosed) {
   SHARED_DATA(path, "deform_benchmark/bar.off");
   const auto shape = io::read(path.string());
