@@ -299,6 +299,7 @@ static void fields(A& a, Is<MarkersEdit> auto& markers) {
   a.optional("first", markers.first);
   a.optional("only", markers.only);
   a.optional("matches", markers.matches);
+  a.optional("corresponding", markers.corresponding);
   a.optional("scale", markers.scale);
   a.optional("rotate", markers.rotate);
   a.optional("move", markers.move);
@@ -313,6 +314,8 @@ static void fields(A& a, Is<MarkersEdit> auto& markers) {
     if (matches != nullptr && markers.matches.size() < 3)
       throw a.file().error(*matches, "at least 3 matches, which fix a rotation",
                            std::to_string(markers.matches.size()));
+    if (markers.corresponding && matches == nullptr)
+      throw a.file().error(*a.json().find("corresponding"), "\"matches\" beside it", "none");
     if (matches != nullptr && (markers.rotate || markers.move))
       throw a.file().error(a.json(), "\"matches\", or \"rotate\" and \"move\"", "both");
   }

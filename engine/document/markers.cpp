@@ -56,6 +56,14 @@ Markers::Markers(const MarkersEdit& edit) : edit_(edit), motion_(io::read_motion
     notes_.push_back(std::to_string(lost) + (lost == 1 ? " marker is" : " markers are") + " not seen in frame " +
                      std::to_string(first) + " and " + (lost == 1 ? "is" : "are") + " not used.");
   align();
+  for (const std::size_t i : used_) places_.push_back(aligned(motion_.frames[first_][i]));
+  if (!edit.corresponding) return;
+  used_.clear();
+  places_.clear();
+  for (const MarkerMatch& match : edit.matches) {
+    used_.push_back(number_of(motion_, match.name));
+    places_.push_back(match.place);
+  }
 }
 
 /// The similarity nearest to the matches in least squares [Umeyama 1991], or what the edit says.
@@ -110,9 +118,10 @@ Handle Markers::handle(int frame, const Vec3& origin) const {
   Handle out;
   const std::size_t now = row(frame);
   if (now == missing) return out;
-  for (const std::size_t i : used_) {
+  for (std::size_t k = 0; k < used_.size(); ++k) {
+    const std::size_t i = used_[k];
     if (!io::seen(motion_.frames[now][i])) continue;
-    out.places.push_back(aligned(motion_.frames[first_][i]) - origin);
+    out.places.push_back(places_[k] - origin);
     out.targets.push_back(aligned(motion_.frames[now][i]) - origin);
   }
   return out;

@@ -38,6 +38,7 @@ class Markers {
   MarkersEdit edit_;
   io::Trajectories motion_;
   std::vector<std::size_t> used_;  ///< points of the motion
+  std::vector<Vec3> places_;       ///< of each used one, in the file's coordinates
   std::size_t first_ = 0;          ///< row of the frame that is aligned
   double scale_ = 1, fit_rms_ = 0;
   Mat3 R_ = Mat3::Identity();

@@ -152,11 +152,14 @@ struct MarkerMatch {
 /// Captured markers, or the joints of a skeleton, as handles: each pulls the place along that it has in the first
 /// frame. Aligned with the shape there: p -> scale R p + move, by the matches where there are any (at least three),
 /// else as given.
+/// Where the shape stands in another pose than the markers, `corresponding` pulls the places of the matches themselves,
+/// and no other markers.
 struct MarkersEdit {
   std::string path;               ///< as SelectLabels::path
   std::optional<int> first;       ///< frame of the motion that is aligned; absent: its first
   std::vector<std::string> only;  ///< names of those that are used; empty: all
   std::vector<MarkerMatch> matches;
+  bool corresponding = false;
   std::optional<double> scale;  ///< absent: fitted to the matches; without these 1
   std::optional<Rotation> rotate;
   std::optional<Vec3> move;
