@@ -49,15 +49,17 @@ Shape bumpy_plane() {
 }
 
 Shape bar() {
-  constexpr std::array<int, 3> cells{20, 66, 20};
-  constexpr double cell = 0.025;
+  return box({20, 66, 20}, Vec3::Constant(0.025));
+}
+
+Shape box(const std::array<int, 3>& cells, const Vec3& cell) {
   Shape shape;
   std::map<std::array<int, 3>, Index> vertices;
   const auto vertex = [&](const std::array<int, 3>& at) {
     const auto [entry, fresh] = vertices.try_emplace(at, static_cast<Index>(shape.size()));
     if (fresh)
       shape.positions.push_back(
-          rounded((at[0] - 0.5 * cells[0]) * cell, at[1] * cell, (at[2] - 0.5 * cells[2]) * cell));
+          rounded((at[0] - 0.5 * cells[0]) * cell[0], at[1] * cell[1], (at[2] - 0.5 * cells[2]) * cell[2]));
     return entry->second;
   };
   for (int axis = 0; axis < 3; ++axis) {
@@ -83,7 +85,10 @@ Shape bar() {
 }
 
 Shape cylinder() {
-  constexpr Index around = 48, cap_rings = 6, body_rings = 88;
+  return cylinder(48, 6, 88);
+}
+
+Shape cylinder(Index around, Index cap_rings, Index body_rings) {
   constexpr double radius = 0.1, length = 1.15;
   Shape shape;
   const auto add_ring = [&](double r, double y) {
@@ -98,8 +103,8 @@ Shape cylinder() {
   for (Index k = cap_rings; k >= 1; --k) add_ring(radius * k / (cap_rings + 1), length);
   shape.positions.push_back(rounded(0, length, 0));
 
-  constexpr Index rings = 2 * cap_rings + body_rings;
-  const auto at = [](Index ring, Index i) { return 1 + ring * around + i % around; };
+  const Index rings = 2 * cap_rings + body_rings;
+  const auto at = [around](Index ring, Index i) { return 1 + ring * around + i % around; };
   const Index last = static_cast<Index>(shape.size() - 1);
   for (Index i = 0; i < around; ++i) {
     shape.faces.add(std::array{Index{0}, at(0, i), at(0, i + 1)});
@@ -111,13 +116,17 @@ Shape cylinder() {
 }
 
 Shape cactus() {
+  return cactus(0.0148);
+}
+
+Shape cactus(double cell) {
   const std::vector<Capsule> parts{
       {.a = {0, 0.095, 0}, .b = {0, 0.90, 0}, .ra = 0.095, .rb = 0.085, .blend = 0.05},
       {.a = {0, 0.36, 0}, .b = {0.225, 0.42, 0}, .ra = 0.055, .rb = 0.056, .blend = 0.05},
       {.a = {0.225, 0.42, 0}, .b = {0.245, 0.68, 0}, .ra = 0.056, .rb = 0.052, .blend = 0.03},
       {.a = {0, 0.52, 0}, .b = {-0.200, 0.57, 0}, .ra = 0.050, .rb = 0.052, .blend = 0.05},
       {.a = {-0.200, 0.57, 0}, .b = {-0.220, 0.77, 0}, .ra = 0.052, .rb = 0.048, .blend = 0.03}};
-  return polygonized(Implicit(parts), 0.0148);
+  return polygonized(Implicit(parts), cell);
 }
 
 namespace {

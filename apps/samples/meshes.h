@@ -2,6 +2,8 @@
 /// Our own shapes for the four cases of Botsch and Sorkine, "On Linear Variational Surface Deformation Methods", TVCG
 /// 2008, Figure 10: triangles, y up, about 1 m. All but the plane are closed and oriented outwards.
 
+#include <array>
+
 #include "apps/samples/implicit.h"
 
 namespace sinew::samples {
@@ -10,10 +12,16 @@ namespace sinew::samples {
 Shape bumpy_plane();
 /// A box of 20 x 66 x 20 cells along y, 0.5 x 1.65 x 0.5: 6,082 vertices.
 Shape bar();
+/// The faces of a box of so many cells of so much each along x, y and z, from y = 0, its middle at x = z = 0.
+Shape box(const std::array<int, 3>& cells, const Vec3& cell);
 /// A cylinder along y, radius 0.1, length 1.15, its ends rings around a centre: 4,802 vertices.
 Shape cylinder();
+/// With other numbers of vertices on a ring, of rings on each end, and of rings on the body.
+Shape cylinder(Index around, Index cap_rings, Index body_rings);
 /// A trunk with two arms, 1 high, from y = 0 to 0.985: about 5,000 vertices.
 Shape cactus();
+/// With cells of another size (see polygonized).
+Shape cactus(double cell);
 
 /// The zero set of `surface` as quads cut into triangles: one vertex for each cell (of size `cell`) that the surface
 /// crosses, the mean of the crossings of its edges, joined around each crossed edge of the grid [Gibson, "Constrained

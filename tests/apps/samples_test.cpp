@@ -78,11 +78,16 @@ TEST(Samples, MeshesHaveTheCountsOfTheirCases) {
   EXPECT_EQ(bar().size(), 6'082u);
   EXPECT_EQ(cylinder().size(), 4'802u);
   EXPECT_NEAR(double(cactus().size()), 5'000, 100);
+  EXPECT_EQ(box({3, 2, 1}, Vec3(1, 2, 4)).size(), 24u);
+  EXPECT_EQ(cylinder(10, 2, 5).size(), 2u + 10 * 9);
 }
 
 TEST(Samples, MeshesAreClosedAndTurnedOutwards) {
-  const std::map<std::string, std::pair<Shape, double>> cases{
-      {"bar", {bar(), 0.5 * 1.65 * 0.5}}, {"cylinder", {cylinder(), 0.0361}}, {"cactus", {cactus(), 0.031}}};
+  const std::map<std::string, std::pair<Shape, double>> cases{{"bar", {bar(), 0.5 * 1.65 * 0.5}},
+                                                              {"cylinder", {cylinder(), 0.0361}},
+                                                              {"cactus", {cactus(), 0.031}},
+                                                              {"box", {box({3, 2, 1}, Vec3(1, 2, 4)), 3 * 4 * 4}},
+                                                              {"finer cylinder", {cylinder(96, 12, 176), 0.0361}}};
   for (const auto& [name, made] : cases) {
     const Shape& shape = made.first;
     SCOPED_TRACE(name);

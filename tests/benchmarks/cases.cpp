@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "apps/samples/edits.h"
@@ -85,11 +86,15 @@ Constraints dragged(const Case& c, int steps, double share) {
 }
 
 BenchmarkEdit benchmark_edit(const std::string& name) {
-  static const std::map<std::string, Shape (*)()> shapes = {{"plane", samples::bumpy_plane},
-                                                            {"bar", samples::bar},
-                                                            {"cactus", samples::cactus},
-                                                            {"cylinder", samples::cylinder}};
-  auto shape = std::make_shared<Shape>(shapes.at(name)());
+  static const std::map<std::string, std::function<Shape()>> shapes = {
+      {"plane", [] { return samples::bumpy_plane(); }},
+      {"bar", [] { return samples::bar(); }},
+      {"cactus", [] { return samples::cactus(); }},
+      {"cylinder", [] { return samples::cylinder(); }}};
+  return edit_of_shape(name, std::make_shared<Shape>(shapes.at(name)()));
+}
+
+BenchmarkEdit edit_of_shape(const std::string& name, std::shared_ptr<const Shape> shape) {
   const document::Project project = document::parse_edit(name + ".edit.json", samples::edit_of(name));
   document::Selector selector(shape);
   BenchmarkEdit out{shape, selector.constraints(project.layers.at(0), shape->positions)};

@@ -34,5 +34,7 @@ struct BenchmarkEdit {
   Constraints constraints;
 };
 BenchmarkEdit benchmark_edit(const std::string& name);
+/// The edit of a sample, done to another shape that lies as the sample does.
+BenchmarkEdit edit_of_shape(const std::string& name, std::shared_ptr<const Shape> shape);
 
 }  // namespace sinew::benchmarks
