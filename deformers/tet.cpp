@@ -221,7 +221,10 @@ class TetDeformer final : public Deformer {
     const auto begin = Clock::now();
     prepare(constraints);
     const double prefactor = seconds_since(begin);
-    SolveReport report = solver_->solve(targets_of(constraints), options, [&] {
+    // An iteration is a solve with a factor that is there: ten of them cost what one does that makes a factor.
+    SolveOptions own = options;
+    if (options.quality == SolveOptions::Quality::Final) own.max_iterations *= 10;
+    SolveReport report = solver_->solve(targets_of(constraints), own, [&] {
       if (!options.on_iteration) return true;
       publish();
       return options.on_iteration(pose_);
