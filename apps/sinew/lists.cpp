@@ -14,10 +14,10 @@ int print_formats() {
   for (const io::Format& format : io::formats()) {
     std::string extensions;
     for (const std::string& e : format.extensions) extensions += (extensions.empty() ? "." : " .") + e;
-    fmt::print("{:<8}{:<20}{:<7}{}\n", format.name, extensions, format.write != nullptr ? "r w" : "r", format.help);
+    fmt::print("{:<14}{:<20}{:<7}{}\n", format.name, extensions, format.write != nullptr ? "r w" : "r", format.help);
   }
   for (const io::MotionFormat& format : io::motion_formats())
-    fmt::print("{:<8}{:<20}{:<7}{}\n", format.name, "." + format.extension, format.write != nullptr ? "r w" : "r",
+    fmt::print("{:<14}{:<20}{:<7}{}\n", format.name, "." + format.extension, format.write != nullptr ? "r w" : "r",
                format.help);
   return Ok;
 }

@@ -51,7 +51,8 @@ inline std::vector<std::pair<std::string, std::string>> bad_edits() {
       {"{\"sinew\": 1, \"layers\": [@{}]}", "expected \"method\", found an object without members"},
       {"{\"sinew\": 1, \"layers\": [{\"method\": @3}]}", "expected a text, found 3"},
       {layer_with("@\"setings\": {}"),
-       "expected one of \"name\", \"off\", \"method\", \"settings\", \"frame\", \"path\", \"cuts\", \"tets\", \"markers\", "
+       "expected one of \"name\", \"off\", \"method\", \"settings\", \"frame\", \"path\", \"cuts\", \"tets\", "
+       "\"markers\", "
        "\"nodes\", "
        "\"fixed\", \"handles\", \"rigid\", "
        "\"stiffness\", \"examples\", \"keys\", \"start\", found \"setings\""},
