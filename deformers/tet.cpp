@@ -12,6 +12,7 @@
 #include "engine/geometry/bounds.h"
 #include "engine/geometry/check.h"
 #include "engine/geometry/error.h"
+#include "engine/geometry/parallel.h"
 #include "engine/geometry/skin.h"
 
 namespace sinew {
@@ -381,22 +382,25 @@ class TetDeformer final : public Deformer {
 
   /// x as affine maps in the shape's coordinates: p -> v' + T (p - v), v any corner.
   void publish() {
-    const std::vector<Vec3>& x = solver_->x();
+    const std::vector<Vec3>&x = solver_->x(), &rest = solver_->rest();
+    std::vector<bool> moved(mesh_.vertices.size());
+    for (std::size_t v = 0; v < moved.size(); ++v) moved[v] = x[v] != rest[v];
+    moved_ = std::find(moved.begin(), moved.end(), true) != moved.end();
     pose_.resize(mesh_.tets.size());
-    moved_ = false;
-    for (Index j = 0; j < mesh_.tets.size(); ++j) {
-      const Tet& tet = mesh_.tets[j];
-      const std::vector<Vec3>& rest = solver_->rest();
-      const bool still = std::all_of(tet.begin(), tet.end(), [&](Index v) { return x[v] == rest[v]; });
-      if (still) {
-        pose_[j] = identity_map();
-        continue;
+    T_.resize(solver_->tets().size());
+    solver_->energy().maps(x, T_);
+    parallel_for(pose_.size(), 4096, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t j = begin; j < end; ++j) {
+        const Tet& tet = mesh_.tets[j];
+        if (!moved[tet[0]] && !moved[tet[1]] && !moved[tet[2]] && !moved[tet[3]]) {
+          pose_[j] = identity_map();
+          continue;
+        }
+        const Vec3& corner = mesh_.vertices[tet[0]];
+        pose_[j].leftCols<3>() = T_[j];
+        pose_[j].col(3) = corner + (x[tet[0]] - rest[tet[0]]) / unit_.scale - T_[j] * corner;
       }
-      moved_ = true;
-      const Mat3 T = solver_->energy().map(j, x);
-      const Vec3 step = (x[tet[0]] - rest[tet[0]]) / unit_.scale;
-      pose_[j] << T, mesh_.vertices[tet[0]] + step - T * mesh_.vertices[tet[0]];
-    }
+    });
   }
 
   TetOptions options_;
@@ -412,7 +416,8 @@ class TetDeformer final : public Deformer {
   std::unique_ptr<TetSolver> solver_;
   std::optional<Constraints> prepared_;  ///< the marks that the solver knows
   Pose pose_;
-  bool moved_ = false;  ///< the pose is not at rest
+  std::vector<Mat3> T_;  ///< of the pose, kept for its memory
+  bool moved_ = false;   ///< the pose is not at rest
 };
 
 const std::vector<Setting>& tet_settings() {

@@ -163,6 +163,17 @@ Mat3Lanes TetEnergy::maps(const Block& block, std::span<const Vec3> x) const {
   return T;
 }
 
+void TetEnergy::maps(std::span<const Vec3> x, std::span<Mat3> out) const {
+  CHECK(x.size() == vertex_count_ && out.size() == tet_count_, x.size(), out.size());
+  for_runs(blocks_.size(), block_run, tet_count_ < few, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) {
+      const Mat3Lanes T = maps(blocks_[b], x);
+      for (std::size_t l = 0; l < std::min(W, tet_count_ - b * W); ++l)
+        for (std::size_t k = 0; k < 9; ++k) out[b * W + l].data()[k] = T[k][l];
+    }
+  });
+}
+
 void TetEnergy::turn_groups(std::span<const Vec3> x) {
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     Mat3 sum = Mat3::Zero();

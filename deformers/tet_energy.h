@@ -64,6 +64,8 @@ class TetEnergy {
   Mat3 rotation(Index tet) const;
   void set_rotation(Index tet, const Mat3& R);
   Mat3 map(Index tet, std::span<const Vec3> x) const;  ///< T_j
+  /// All of them, tets() many; the last bits may be others.
+  void maps(std::span<const Vec3> x, std::span<Mat3> out) const;
   /// w_j |T_j - R_j|^2 of each tet at the last x.
   std::vector<double> tet_energies() const;
 
