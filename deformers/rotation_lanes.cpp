@@ -62,6 +62,18 @@ Mat3Lanes rotation_of(Lanes w, Lanes x, Lanes y, Lanes z, Lanes squares) {
           t * (x * z + w * y),       t * (y * z - w * x),       1.0 - t * (x * x + y * y)};
 }
 
+using Truths = decltype(Lanes{} < Lanes{});
+
+bool all_of(Truths truths) {
+  auto all = truths[0];
+  for (std::size_t l = 1; l < lane_count; ++l) all &= truths[l];
+  return all != 0;
+}
+
+Lanes magnitude(Lanes x) {
+  return x < 0.0 ? -x : x;
+}
+
 /// The lane's rotation by singular values, and where these leave a choice, unchanged.
 void one_by_one(const Mat3Lanes& M, Mat3Lanes& R, std::size_t lane) {
   Mat3 m;
@@ -96,6 +108,8 @@ void nearest_rotations(const Mat3Lanes& M, Mat3Lanes& R) {
     slope = 4.0 * (s * s - squares) * s - 8.0 * determinant;
     change = p / slope;
     s -= change;
+    // Quadratic convergence: what is left is about the square of this. The turn is small nearly always, so is the way.
+    if (step > 0 && all_of(magnitude(change) < 1e-10 * s)) break;
   }
   Lanes w, x, y, z;
   eigenvector(N, s, w, x, y, z);
@@ -103,15 +117,17 @@ void nearest_rotations(const Mat3Lanes& M, Mat3Lanes& R) {
   const Mat3Lanes turned = rotation_of(w, x, y, z, norm);
   const Mat3Lanes out = times(R, turned);
   // Where the root is nearly a double one, the turn is far, or the iteration is not at its end, in full.
-  const Lanes scale = squares * s;
+  const Truths good = (slope > 1e-4 * squares * s) & (w * w > 0.1 * norm) & (magnitude(change) < 1e-9 * s);
+  if (all_of(good)) {
+    R = out;
+    return;
+  }
   Mat3Lanes in_full = R;
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    const bool good = slope[l] > 1e-4 * scale[l] && w[l] * w[l] > 0.1 * norm[l] && std::abs(change[l]) < 1e-9 * s[l];
-    if (good)
+  for (std::size_t l = 0; l < lane_count; ++l)
+    if (good[l])
       for (std::size_t k = 0; k < 9; ++k) in_full[k][l] = out[k][l];
     else
       one_by_one(M, in_full, l);
-  }
   R = in_full;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 
 #include "engine/geometry/check.h"
@@ -29,6 +30,22 @@ void for_runs(std::size_t n, std::size_t run, bool small, const Body& body) {
 /// Place in the forces of component r of corner i of a tet.
 std::size_t force_at(std::size_t block, std::size_t corner, std::size_t r, std::size_t lane) {
   return ((block * 4 + corner) * 3 + r) * W + lane;
+}
+
+typedef double Quad __attribute__((vector_size(4 * sizeof(double))));
+
+/// (x, y, z, 0): whole vectors are moved, not their numbers one by one.
+Quad quad(const Vec3& p) {
+  return Quad{p.x(), p.y(), p.z(), 0};
+}
+
+/// Four points as rows -> their x, their y, their z.
+void transpose(Quad (&d)[4]) {
+  const Quad a = __builtin_shufflevector(d[0], d[1], 0, 4, 2, 6), b = __builtin_shufflevector(d[0], d[1], 1, 5, 3, 7);
+  const Quad c = __builtin_shufflevector(d[2], d[3], 0, 4, 2, 6), e = __builtin_shufflevector(d[2], d[3], 1, 5, 3, 7);
+  d[0] = __builtin_shufflevector(a, c, 0, 1, 4, 5);
+  d[1] = __builtin_shufflevector(b, e, 0, 1, 4, 5);
+  d[2] = __builtin_shufflevector(a, c, 2, 3, 6, 7);
 }
 
 }  // namespace
@@ -148,12 +165,15 @@ BlockMatrix TetEnergy::laplacian() const {
 
 Mat3Lanes TetEnergy::maps(const Block& block, std::span<const Vec3> x) const {
   std::array<Lanes, 9> e;  // x_i - x_4, corner by corner
-  for (std::size_t l = 0; l < W; ++l) {
-    const Vec3& last = x[block.v[3][l]];
+  for (std::size_t l = 0; l < W; l += 4) {
+    Quad last[4];
+    for (std::size_t k = 0; k < 4; ++k) last[k] = quad(x[block.v[3][l + k]]);
     for (std::size_t i = 0; i < 3; ++i) {
-      const Vec3& p = x[block.v[i][l]];
+      Quad d[4];
+      for (std::size_t k = 0; k < 4; ++k) d[k] = quad(x[block.v[i][l + k]]) - last[k];
+      transpose(d);
       for (std::size_t r = 0; r < 3; ++r)
-        e[3 * i + r][l] = p[static_cast<Eigen::Index>(r)] - last[static_cast<Eigen::Index>(r)];
+        std::memcpy(reinterpret_cast<double*>(&e[3 * i + r]) + l, &d[r], sizeof(Quad));
     }
   }
   Mat3Lanes T;
