@@ -160,6 +160,16 @@ TEST(TetEnergy, RigidMotionCostsNothingAndMirroringDoes) {
   for (Index j = 0; j < solid.tets.size(); ++j) EXPECT_GT(energy.rotation(j).determinant(), 0.999);
 }
 
+TEST(TetEnergy, MapsAllTetsAsOneByOne) {
+  Solid solid = uneven_box();
+  solid.tets.resize(solid.tets.size() - 3);  // the last lanes are empty
+  const std::vector<Vec3> x = shaken(solid, 0.05);
+  const TetEnergy energy(solid.vertices, solid.tets);
+  std::vector<Mat3> T(solid.tets.size());
+  energy.maps(x, T);
+  for (Index j = 0; j < T.size(); ++j) EXPECT_LT((T[j] - energy.map(j, x)).norm(), 1e-12) << j;
+}
+
 TEST(TetEnergy, IsTheSameWithAnyNumberOfThreads) {
   const Solid solid = box(12, 12, 12, 0.05);
   const std::vector<Vec3> x = shaken(solid, 0.02);
