@@ -4,3 +4,4 @@ file(GLOB SINEW_BENCH_SOURCES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/benchm
 add_executable(sinew-bench ${SINEW_BENCH_SOURCES})
 target_link_libraries(sinew-bench PRIVATE sinew_document sinew_deformers sinew_samples benchmark::benchmark fmt::fmt
                                           nlohmann_json::nlohmann_json)
+add_dependencies(sinew-bench sinew-tets)

@@ -1,5 +1,6 @@
-// sinew-bench [--json FILE]: times the graph on the cases of the papers' tables with Google Benchmark and prints the
-// papers' figures beside today's. Absolute times are of this machine and this hour; ratios to REF carry over.
+// sinew-bench [--json FILE]: times the graph, with Google Benchmark, and the tetrahedral editor on the cases of the
+// papers' tables and prints the papers' figures beside today's. Absolute times are of this machine and this hour;
+// ratios to REF carry over.
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
