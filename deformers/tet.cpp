@@ -187,7 +187,7 @@ class TetDeformer final : public Deformer {
   }
 
   Structure structure() const override {
-    Structure out{mesh_.vertices, {}, tet_of_vertex_};
+    Structure out{mesh_.vertices, {}, tet_of_vertex_, mesh_.tets, binding_.point_of_vertex};
     std::set<std::pair<Index, Index>> edges;
     for (const Tet& tet : mesh_.tets)
       for (std::size_t a = 0; a < 4; ++a)

@@ -38,6 +38,34 @@ bool has_cut(const Context& c) {
 bool layered(const Context& c) {
   return c.session.layer() != nullptr;
 }
+bool knows_rigid(const Context& c) {
+  return c.session.method() != nullptr && c.session.method()->parts.rigid;
+}
+bool knows_stiffness(const Context& c) {
+  return c.session.method() != nullptr && c.session.method()->parts.stiffness;
+}
+bool can_be_rigid(const Context& c) {
+  return selected(c) && knows_rigid(c);
+}
+bool can_be_stiff(const Context& c) {
+  return selected(c) && knows_stiffness(c);
+}
+std::string why_not_known(const Context& c, const char* what, bool Method::Parts::*part) {
+  if (!c.session.has_input() || c.session.method() == nullptr || c.session.method()->parts.*part) return {};
+  std::string names;
+  for (const Method& method : c.session.methods())
+    if (method.parts.*part) names += (names.empty() ? "" : " or ") + method.name;
+  return std::string(what) + " for the method " + names + ": this layer's is " + c.session.method()->name + ".";
+}
+std::string why_not_rigid(const Context& c) {
+  return why_not_known(c, "Rigid regions are", &Method::Parts::rigid);
+}
+std::string why_not_stiff(const Context& c) {
+  return why_not_known(c, "Stiffness is", &Method::Parts::stiffness);
+}
+bool solid_shown(const Context& c) {
+  return layered(c) && c.session.method() != nullptr && c.session.method()->parts.solid && c.view.show_graph;
+}
 bool can_undo(const Context& c) {
   return c.session.history().can_undo();
 }
@@ -113,7 +141,7 @@ const std::array table{
             [](C& c) { c.request(Request::Export); }},
     Command{"file.screenshot", "Save picture...", "File", "", "Write a picture of the scene to a PNG file.", open,
             [](C& c) { c.request(Request::Screenshot); }},
-    Command{"file.cancel", "Cancel work", "File", "", "Stop reading or writing.", working,
+    Command{"file.cancel", "Cancel work", "File", "", "Stop reading, writing or preparing a layer.", working,
             [](C& c) { c.session.cancel_job(); }, nullptr, true},
     Command{"file.preferences", "Preferences...", "File", "Ctrl+,", "Choose navigation, theme and scale.", always,
             [](C& c) { c.request(Request::Preferences); }, nullptr, true},
@@ -142,6 +170,10 @@ const std::array table{
             [](C& c) { c.session.select_handle(*c.session.chosen_handle()); }, nullptr, true},
     Command{"select.fixed", "Fixed points", "Select", "", "Select the points that stay.", layered,
             [](C& c) { c.session.select_fixed(); }},
+    Command{"select.rigid", "Rigid points", "Select", "", "Select the points of all rigid regions.", layered,
+            [](C& c) { c.session.select_rigid(); }},
+    Command{"select.stiff", "Stiffer and softer points", "Select", "", "Select where the stiffness is changed.",
+            layered, [](C& c) { c.session.select_stiff(); }},
     Command{"select.through", "Through", "Select", "Alt+Z", "Select what stands behind, too.", always, toggle_depth,
             [](const C& c) { return c.view.depth == Depth::Through; }, true},
 
@@ -168,7 +200,13 @@ const std::array table{
             [](C& c) { c.session.mark_selection(Mark::Handle); }},
     Command{"mark.fixed", "Fix", "Layer", "K", "The selected points stay where they are.", selected,
             [](C& c) { c.session.mark_selection(Mark::Fixed); }},
-    Command{"mark.free", "Free", "Layer", "U", "The selected points are neither handle nor fixed.", selected,
+    Command{"mark.rigid", "Make rigid", "Layer", "J", "The selected points turn as one.", can_be_rigid,
+            [](C& c) { c.session.mark_selection(Mark::Rigid); }, nullptr, false, why_not_rigid},
+    Command{"mark.stiffer", "Stiffer", "Layer", "T", "The material at the selected points is twice as stiff.",
+            can_be_stiff, [](C& c) { c.session.mark_selection(Mark::Stiffer); }, nullptr, false, why_not_stiff},
+    Command{"mark.softer", "Softer", "Layer", "Shift+T", "The material at the selected points is half as stiff.",
+            can_be_stiff, [](C& c) { c.session.mark_selection(Mark::Softer); }, nullptr, false, why_not_stiff},
+    Command{"mark.free", "Free", "Layer", "U", "The selected points are not marked in any way.", selected,
             [](C& c) { c.session.mark_selection(Mark::Free); }},
     Command{"handle.move", "Move handle", "Layer", "G", "Move the chosen handle; X, Y, Z and numbers hold it.", chosen,
             [](C& c) { begin_manipulation(c.session, c.view, GizmoKind::Translate, GizmoPart::Screen, true); }, nullptr,
@@ -248,8 +286,10 @@ const std::array table{
     Command{"view.local", "Local axes", "View", "", "The chosen handle's own axes in place of the world's.", always,
             [](C& c) { c.view.space = c.view.space == Space::Local ? Space::World : Space::Local; },
             [](const C& c) { return c.view.space == Space::Local; }, true},
-    Command{"view.graph", "Graph", "View", "", "Show the structure of the chosen layer.", always,
+    Command{"view.graph", "Structure", "View", "", "Show the structure of the chosen layer.", always,
             [](C& c) { c.view.show_graph = !c.view.show_graph; }, [](const C& c) { return c.view.show_graph; }},
+    Command{"view.cut_tets", "Cut tets open", "View", "", "Show the inside of the structure of a solid.", solid_shown,
+            [](C& c) { c.view.cut_tets = !c.view.cut_tets; }, [](const C& c) { return c.view.cut_tets; }},
     Command{"view.rest", "Rest shape", "View", "", "Show a ghost of the shape at rest.", always,
             [](C& c) { c.view.show_rest = !c.view.show_rest; }, [](const C& c) { return c.view.show_rest; }},
     Command{"view.ground", "Ground", "View", "", "Show the ground grid.", always,
@@ -313,6 +353,14 @@ const Command* command_for(int key, int modifiers, const Context& context) {
     for (const Chord& chord : shortcuts_of(command))
       if (matches(chord, key, modifiers) && command.enabled(context)) return &command;
   return nullptr;
+}
+
+std::string why_no_command_for(int key, int modifiers, const Context& context) {
+  for (const Command& command : table)
+    if (command.why_not != nullptr && !command.enabled(context))
+      for (const Chord& chord : shortcuts_of(command))
+        if (matches(chord, key, modifiers)) return command.why_not(context);
+  return {};
 }
 
 bool run_command(const Command& command, Context& context) {

@@ -35,6 +35,8 @@ struct Command {
   void (*run)(Context&);
   bool (*checked)(const Context&) = nullptr;  ///< of a switch: whether it is on
   bool separator = false;                     ///< a line above it in its menu
+  /// Why it is not enabled, where that needs saying: one sentence; empty: for reasons that are plain to see.
+  std::string (*why_not)(const Context&) = nullptr;
 };
 
 std::span<const Command> commands();
@@ -46,6 +48,9 @@ std::vector<Chord> shortcuts_of(const Command& command);
 /// The enabled command of a pressed key; null where there is none. Commands come first to last: of two with one
 /// shortcut the first that is enabled.
 const Command* command_for(int key, int modifiers, const Context& context);
+
+/// What to tell who presses a key of a command that is not enabled; empty: nothing.
+std::string why_no_command_for(int key, int modifiers, const Context& context);
 
 /// Runs it where it is enabled; false where it is not.
 bool run_command(const Command& command, Context& context);

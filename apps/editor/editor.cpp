@@ -27,9 +27,17 @@ float used_scale(const Preferences& preferences, const Window& window) {
   return static_cast<float>(std::clamp(scale, 0.75, 4.0));
 }
 
-std::size_t count_fixed(const std::vector<std::uint8_t>& marks) {
-  return static_cast<std::size_t>(std::count_if(
-      marks.begin(), marks.end(), [](std::uint8_t bits) { return (bits & gpu::shared::mark_fixed) != 0; }));
+MarkCounts count_marks(Session& session) {
+  MarkCounts out;
+  for (const std::uint8_t bits : session.point_marks()) {
+    out.fixed += (bits & gpu::shared::mark_fixed) != 0;
+    out.rigid += (bits & gpu::shared::mark_rigid) != 0;
+  }
+  for (const float factor : session.point_stiffness()) {
+    out.stiffer += factor > 1;
+    out.softer += factor < 1;
+  }
+  return out;
 }
 
 bool same_camera(const gpu::Camera& a, const gpu::Camera& b) {
@@ -157,7 +165,11 @@ void Editor::press_key(const InputEvent& event) {
     return;
   }
   if (mouse_.press(event.code, event.modifiers)) return;
-  if (const Command* command = command_for(event.code, event.modifiers, context_)) run_command(*command, context_);
+  if (const Command* command = command_for(event.code, event.modifiers, context_)) {
+    run_command(*command, context_);
+  } else if (const std::string why = why_no_command_for(event.code, event.modifiers, context_); !why.empty()) {
+    session_.notify(Severity::Hint, why);
+  }
 }
 
 void Editor::take_changes() {
@@ -170,7 +182,7 @@ void Editor::take_changes() {
   }
   const Changed changed = session_.poll();
   stage_.note(changed);
-  if (changed.marks || changed.input) ui_.fixed_points = count_fixed(session_.point_marks());
+  if (changed.marks || changed.input) ui_.marks = count_marks(session_);
   if (changed.input) show_new_input();
   if (changed.any()) frames_wanted_ = std::max(frames_wanted_, 1);
   shape_moved_ |= changed.pose || changed.input || changed.frame;
@@ -202,7 +214,7 @@ void Editor::wait_for_shape() {
     const Changed changed = session_.poll();
     stage_.note(changed);
     shape_moved_ |= changed.pose;
-    if (changed.marks) ui_.fixed_points = count_fixed(session_.point_marks());
+    if (changed.marks) ui_.marks = count_marks(session_);
     if (changed.any()) frames_wanted_ = std::max(frames_wanted_, 1);
   }
 }

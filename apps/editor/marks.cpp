@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -77,6 +78,59 @@ HandleEdit handle_without(const HandleEdit& handle, std::span<const Index> point
   return out;
 }
 
+/// A group of points that are given as indices from here on.
+Selection selection_without(const Selection& selection, std::span<const Index> points, const PointSet& set) {
+  return selection_of(without(points, set), selection.frame);
+}
+
+/// The rigid groups without `set`.
+std::vector<Selection> rigid_after(const Layer& layer, const LayerPoints& points, const PointSet& set) {
+  std::vector<Selection> out;
+  for (std::size_t g = 0; g < layer.rigid.size(); ++g) {
+    if (!any_in(points.rigid[g], set)) {
+      out.push_back(layer.rigid[g]);
+      continue;
+    }
+    Selection rest = selection_without(layer.rigid[g], points.rigid[g], set);
+    if (!std::get<SelectIndices>(rest.what).points.get().empty()) out.push_back(std::move(rest));
+  }
+  return out;
+}
+
+/// Factors of points add up as a product; those of `set` become `times` of what they were. 0: none.
+std::vector<document::Stiffness> stiffness_after(const Layer& layer, const LayerPoints& points, const PointSet& set,
+                                                 double times, std::optional<int> frame) {
+  std::vector<document::Stiffness> out;
+  std::vector<double> factors(set.size(), 1);
+  for (std::size_t s = 0; s < layer.stiffness.size(); ++s) {
+    const document::Stiffness& stiff = layer.stiffness[s];
+    if (!any_in(points.stiff[s], set)) {
+      out.push_back(stiff);
+      continue;
+    }
+    for (const Index i : points.stiff[s]) factors[i] *= stiff.factor;
+    document::Stiffness rest{selection_without(stiff.points, points.stiff[s], set), stiff.factor};
+    if (!std::get<SelectIndices>(rest.points.what).points.get().empty()) out.push_back(std::move(rest));
+  }
+  if (times == 0) return out;
+  std::map<double, std::vector<Index>> groups;
+  set.each([&](std::size_t i) {
+    const double factor = std::clamp(factors[i] * times, 1 / stiffest, stiffest);
+    if (factor != 1) groups[factor].push_back(static_cast<Index>(i));
+  });
+  for (auto& [factor, group] : groups) out.push_back({selection_of(std::move(group), frame), factor});
+  return out;
+}
+
+/// The rotation by `turn` with whole turns added: the nearest to `near` (axis times degrees). Where it turns by less
+/// than `least` degrees it says nothing about the axis, and that of `near` is taken, by whole turns.
+Rotation nearest_turn(const Eigen::AngleAxisd& turn, const Vec3& near, double least) {
+  const double degrees = turn.angle() * (180 / std::numbers::pi);
+  if (degrees < least && near.norm() > 180)
+    return {near.normalized(), 360 * std::round(near.norm() / 360), std::nullopt};
+  return {turn.axis(), degrees + 360 * std::round((near.dot(turn.axis()) - degrees) / 360), std::nullopt};
+}
+
 struct BentPoint {
   Vec3 position;
   Mat3 M;
@@ -100,12 +154,22 @@ LayerPoints points_of(const Layer& layer, document::Selector& selector, std::opt
     points =
         handle.motion.to.get().empty() ? selector.points(handle.points) : selector.points_as_written(handle.points);
   }
+  for (const Selection& selection : layer.rigid)
+    out.rigid.push_back(elsewhere(selection) ? std::vector<Index>{} : selector.points(selection));
+  for (const document::Stiffness& stiff : layer.stiffness)
+    out.stiff.push_back(elsewhere(stiff.points) ? std::vector<Index>{} : selector.points(stiff.points));
   return out;
 }
 
 Layer marked(const Layer& layer, const LayerPoints& points, const PointSet& set, Mark mark, const Motion& motion,
              std::optional<int> frame) {
   Layer out = layer;
+  if (mark == Mark::Free || mark == Mark::Rigid) out.rigid = rigid_after(layer, points, set);
+  if (mark == Mark::Rigid && !set.empty()) out.rigid.push_back(selection_of(set.indices(), frame));
+  if (mark == Mark::Free) out.stiffness = stiffness_after(layer, points, set, 0, frame);
+  if (mark == Mark::Stiffer) out.stiffness = stiffness_after(layer, points, set, 2, frame);
+  if (mark == Mark::Softer) out.stiffness = stiffness_after(layer, points, set, 0.5, frame);
+  if (mark == Mark::Rigid || mark == Mark::Stiffer || mark == Mark::Softer) return out;
   out.fixed = fixed_after(layer, points, set, mark == Mark::Fixed, frame);
   for (std::size_t h = layer.handles.size(); h-- > 0;) {
     if (!any_in(points.handles[h], set)) continue;
@@ -225,11 +289,28 @@ Motion moved(const Motion& before, const RigidMotion& by, const Vec3& centre, co
     rotate.degrees += rotate.degrees == 0 || same > 0 ? by.degrees : -by.degrees;
   } else {
     const Eigen::AngleAxisd both(Mat3(R * matrix_of(rotate.axis, rotate.degrees)));
-    rotate.axis = both.axis();
-    rotate.degrees = both.angle() * (180 / std::numbers::pi);
+    const Vec3 near = axis * rotate.degrees + by.axis.stableNormalized() * by.degrees;
+    const Rotation turned = nearest_turn(both, near, 1e-7);
+    rotate.axis = turned.axis;
+    rotate.degrees = turned.degrees;
   }
   out.rotate = rotate;
   out.move = Vec3(R * (c + move - by.pivot) + by.pivot - c + by.move);
+  return out;
+}
+
+Motion wound(const Motion& motion, const Vec3& turn, const Vec3& centre, const Vec3& origin) {
+  if (motion.matrix || !motion.to.get().empty()) return motion;
+  Motion out = motion;
+  if (motion.rotate) {
+    const double radians = motion.rotate->degrees * (std::numbers::pi / 180);
+    const Eigen::AngleAxisd once(Mat3(Eigen::AngleAxisd(radians, motion.rotate->axis.stableNormalized())));
+    out.rotate = nearest_turn(once, turn, 1);
+    out.rotate->about = motion.rotate->about;
+  } else if (turn.norm() > 180) {
+    out.rotate = nearest_turn(Eigen::AngleAxisd(0, Vec3::UnitZ()), turn, 1);
+    out.rotate->about = centre + origin;
+  }
   return out;
 }
 
@@ -312,7 +393,16 @@ std::vector<std::uint8_t> mark_bits(const LayerPoints& points, const PointSet& s
   };
   mark(points.fixed, gpu::shared::mark_fixed);
   mark(points.handles, gpu::shared::mark_handle);
+  mark(points.rigid, gpu::shared::mark_rigid);
   selection.each([&](std::size_t i) { out[i] = static_cast<std::uint8_t>(out[i] | gpu::shared::mark_selected); });
+  return out;
+}
+
+std::vector<float> stiffness_factors(const Layer& layer, const LayerPoints& points, std::size_t n) {
+  if (layer.stiffness.empty()) return {};
+  std::vector<float> out(n, 1);
+  for (std::size_t s = 0; s < layer.stiffness.size(); ++s)
+    for (const Index i : points.stiff[s]) out[i] *= static_cast<float>(layer.stiffness[s].factor);
   return out;
 }
 

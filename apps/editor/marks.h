@@ -14,7 +14,9 @@
 
 namespace sinew::editor {
 
-enum class Mark { Free, Fixed, Handle };
+/// Rigid points turn as one group; Stiffer and Softer double and halve how stiff the material around points is.
+enum class Mark { Free, Fixed, Handle, Rigid, Stiffer, Softer };
+inline constexpr double stiffest = 256;  ///< factors of Stiffer and Softer stay within it and its inverse
 
 /// A rotation about `pivot`, then a move. World coordinates.
 struct RigidMotion {
@@ -29,15 +31,18 @@ struct RigidMotion {
 struct LayerPoints {
   std::vector<std::vector<Index>> fixed;    ///< of each of Layer::fixed
   std::vector<std::vector<Index>> handles;  ///< of each of Layer::handles
+  std::vector<std::vector<Index>> rigid;    ///< of each of Layer::rigid
+  std::vector<std::vector<Index>> stiff;    ///< of each of Layer::stiffness
 };
 /// `frame`: of a stream, the selector's; selections of other frames have no points here.
 LayerPoints points_of(const document::Layer& layer, document::Selector& selector,
                       std::optional<int> frame = std::nullopt);
 
-/// Marks `points`: they leave what they were in; a handle without points goes. Fixed points that are given as indices
-/// are kept as one selection. Handle makes one new handle with `motion` (that keeps the points where they are). Free of
-/// points that are already free changes nothing. `frame`: of a stream, where new selections belong; a list of no points
-/// is one of another frame and stays.
+/// Marks `points`: Fixed and Handle take them from the fixed and the handles, Rigid from other groups, Free from all;
+/// a handle or group without points goes. Fixed points that are given as indices are kept as one selection. Handle
+/// makes one new handle with `motion` (that keeps the points where they are), Rigid one new group. Free of points that
+/// are already free changes nothing. `frame`: of a stream, where new selections belong; a list of no points is one of
+/// another frame and stays.
 document::Layer marked(const document::Layer& layer, const LayerPoints& points, const PointSet& set, Mark mark,
                        const document::Motion& motion = {}, std::optional<int> frame = std::nullopt);
 
@@ -63,6 +68,10 @@ document::Layer with_pivots(const document::Layer& layer, std::span<const Vec3> 
 /// `centre`: mean of the handle's points where the layer starts from, world; `origin`: the input's.
 document::Motion moved(const document::Motion& before, const RigidMotion& by, const Vec3& centre, const Vec3& origin);
 
+/// `motion`, whole turns added to its rotation: the one that ends where it does and is nearest to `turn` (axis times
+/// degrees). A rotation by whole turns alone is about `centre`, world.
+document::Motion wound(const document::Motion& motion, const Vec3& turn, const Vec3& centre, const Vec3& origin);
+
 /// The rigid motion that takes `from` nearest to `to` in least squares; exactly none where they are equal within
 /// `tolerance`. Same sizes, at least one.
 document::Motion rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to, double tolerance, const Vec3& origin);
@@ -77,5 +86,7 @@ void bend_all(const Shape& input, std::span<const document::LayerResult> layers,
 
 /// Bits of shared.h (mark_handle 1, mark_fixed 2, mark_rigid 4, mark_selected 8) of each point; n.
 std::vector<std::uint8_t> mark_bits(const LayerPoints& points, const PointSet& selection);
+/// How stiff the material around each point is; n, or none where all of it is as it was.
+std::vector<float> stiffness_factors(const document::Layer& layer, const LayerPoints& points, std::size_t n);
 
 }  // namespace sinew::editor

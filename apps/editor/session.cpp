@@ -42,6 +42,12 @@ const document::Layer* Session::layer() const {
   return layer_ < project().layers.size() ? &project().layers[layer_] : nullptr;
 }
 
+const Method* Session::method() const {
+  const std::string name = layer() != nullptr ? layer()->method : standard_layer().method;
+  const auto found = std::find_if(methods_.begin(), methods_.end(), [&](const Method& m) { return m.name == name; });
+  return found == methods_.end() ? nullptr : &*found;
+}
+
 bool Session::solving() const {
   return has_input() && !settled();
 }
@@ -70,13 +76,16 @@ void Session::take_answer(document::SolveAnswer answer) {
   if (answer.input != sequence_ || !has_input()) return;
   if (!answer.error.empty()) {
     if (answer.ticket != ticket_) return;
-    notify(Severity::Error, answer.error);
+    // Said once, however often a drag asks; hints() keeps it.
+    if (answer.error != failure_) notify(Severity::Error, answer.error);
+    failure_ = answer.error;
     wanted_frame_ = frame_;  // a frame that can't be read is not waited for
     playing_ = false;
     answered_ = true;
     settling_.reset();
     return;
   }
+  if (answer.ticket == ticket_ && answer.finished) failure_.clear();
   if (moves() && !drag_) {
     if (answer.ticket == ticket_ && answer.finished) show_frame(std::move(answer));
     return;
@@ -149,6 +158,11 @@ const std::vector<std::uint8_t>& Session::point_marks() {
   return marks_;
 }
 
+std::vector<float> Session::point_stiffness() {
+  if (layer() == nullptr || !has_input()) return {};
+  return stiffness_factors(*layer(), layer_points(), input_->size());
+}
+
 Bounds Session::bent_bounds() {
   return bounds_of(bent_positions());
 }
@@ -165,6 +179,7 @@ Bounds Session::selection_bounds() {
 std::vector<Notice> Session::hints() const {
   std::vector<Notice> out;
   if (!has_input()) return out;
+  if (!failure_.empty()) out.push_back({Severity::Error, failure_});
   if (const document::Layer* layer = this->layer(); layer != nullptr && layer->on) {
     if (layer->handles.size() == 1 && layer->fixed.empty())
       out.push_back({Severity::Hint, "A handle needs something fixed: select points that are to stay, and fix them."});
@@ -192,6 +207,8 @@ const LayerPoints& Session::layer_points() {
         points = {};
     points.fixed.resize(layer() == nullptr ? 0 : layer()->fixed.size());
     points.handles.resize(layer() == nullptr ? 0 : layer()->handles.size());
+    points.rigid.resize(layer() == nullptr ? 0 : layer()->rigid.size());
+    points.stiff.resize(layer() == nullptr ? 0 : layer()->stiffness.size());
     layer_points_ = std::move(points);
   }
   return *layer_points_;

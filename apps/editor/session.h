@@ -143,6 +143,8 @@ class Session {
   std::uint64_t shown_ticket() const { return shown_ticket_; }
   /// Bits of shared.h a point; n.
   const std::vector<std::uint8_t>& point_marks();
+  /// How stiff the chosen layer makes the material around each point; n, or none where it says nothing.
+  std::vector<float> point_stiffness();
   const Bounds& rest_bounds() const { return bounds_; }
   Bounds bent_bounds();
   Bounds selection_bounds();  ///< bent; of the chosen handle where nothing is selected; empty where neither is
@@ -169,9 +171,11 @@ class Session {
   void grow_selection();
   void shrink_selection();
   void select_connected();
-  /// The points of a handle, of the fixed.
+  /// The points of a handle, of the fixed, of all rigid groups, of what is stiffer or softer.
   void select_handle(std::size_t handle);
   void select_fixed();
+  void select_rigid();
+  void select_stiff();
 
   // Edits: each is one step of history
   // ---------------------------------------------------------------------------------
@@ -184,6 +188,8 @@ class Session {
   void choose_layer(std::size_t layer);
   /// Null where there is none.
   const document::Layer* layer() const;
+  /// The chosen layer's, or the one that a first mark's layer will have; null where nobody knows it.
+  const Method* method() const;
 
   void mark_selection(
       Mark mark);  ///< in the chosen layer (made where there is none); a new handle becomes the chosen one
@@ -278,6 +284,8 @@ class Session {
   const std::vector<Vec3>& handle_rest_centres();
   document::Layer standard_layer() const;
   void selection_changed();
+  void select_points(const std::vector<std::vector<Index>>& lists);
+  document::Motion motion_of_new_handle();
   bool refuse(const std::function<void()>& check);
 
   std::vector<Method> methods_;       ///< repeatable, for the solver that is asked again and again
@@ -309,6 +317,7 @@ class Session {
   std::uint64_t shown_ticket_ = 0;
   std::uint64_t final_ticket_ = 0;  ///< of the newest one that asked for Quality::Final
   bool answered_ = true;            ///< the newest final request has its finished answer
+  std::string failure_;  ///< why the newest request has no answer; empty: it has, or is on its way for the first time
   std::vector<document::LayerResult> shown_;
   std::vector<Vec3> bent_;
   bool bent_ready_ = false;

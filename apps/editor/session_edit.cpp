@@ -1,6 +1,8 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <numbers>
+#include <numeric>
 
 #include "apps/editor/session.h"
 #include "engine/document/settings.h"
@@ -20,6 +22,19 @@ void forget_starts(Project& project, std::size_t from) {
 
 std::string counted(const char* what, std::size_t points) {
   return fmt::format("{} {} point{}", what, points, points == 1 ? "" : "s");
+}
+
+/// What a mark is called as a step of history.
+const char* step_of(Mark mark) {
+  switch (mark) {
+    case Mark::Fixed: return "Fix";
+    case Mark::Handle: return "Handle of";
+    case Mark::Rigid: return "Make rigid";
+    case Mark::Stiffer: return "Stiffen";
+    case Mark::Softer: return "Soften";
+    case Mark::Free: break;
+  }
+  return "Free";
 }
 
 }  // namespace
@@ -125,15 +140,55 @@ void Session::select_handle(std::size_t handle) {
   selection_changed();
 }
 
-void Session::select_fixed() {
-  if (!has_input()) return;
+void Session::select_points(const std::vector<std::vector<Index>>& lists) {
   selection_.clear();
-  for (const std::vector<Index>& points : layer_points().fixed)
+  for (const std::vector<Index>& points : lists)
     selection_ = combined(selection_, PointSet(input_->size(), points), SelectMode::Add);
   selection_changed();
 }
 
+void Session::select_fixed() {
+  if (has_input()) select_points(layer_points().fixed);
+}
+
+void Session::select_rigid() {
+  if (has_input()) select_points(layer_points().rigid);
+}
+
+void Session::select_stiff() {
+  if (has_input()) select_points(layer_points().stiff);
+}
+
 // Marks
+
+/// How the selected points have moved, so that they stay where they are. What was a handle that has been turned by more
+/// than half a turn goes on from there.
+document::Motion Session::motion_of_new_handle() {
+  const std::vector<Index> points = selection_.indices();
+  const std::vector<Vec3> from = bent(*input_, shown_, layer_, points);
+  const document::Motion fitted =
+      rigid_fit(from, bent(*input_, shown_, layer_ + 1, points), 1e-7 * bounds_.diagonal(), input_->origin);
+  if (layer() == nullptr) return fitted;
+  const std::vector<std::vector<Index>>& handles = layer_points().handles;
+  std::size_t most = 0, of = 0;
+  for (std::size_t h = 0; h < handles.size(); ++h) {
+    const auto shared = static_cast<std::size_t>(
+        std::count_if(handles[h].begin(), handles[h].end(), [&](Index i) { return selection_[i]; }));
+    if (shared <= most) continue;
+    most = shared;
+    of = h;
+  }
+  if (most == 0) return fitted;
+  document::Motion own = motion_now(of);
+  const std::optional<Vec3> turn = document::turn_of(own);
+  if (!turn) return fitted;
+  if (most == points.size() && own.to.get().empty()) {  // part of a handle moves as it did
+    if (!own.rotate->about) own.rotate->about = handle_rest_centres()[of] + input_->origin;
+    return own;
+  }
+  const Vec3 centre = std::accumulate(from.begin(), from.end(), Vec3(0, 0, 0)) / static_cast<double>(from.size());
+  return wound(fitted, *turn * (180 / std::numbers::pi), centre, input_->origin);
+}
 
 void Session::mark_selection(Mark mark) {
   if (!has_input()) return;
@@ -149,12 +204,7 @@ void Session::mark_selection(Mark mark) {
   }
   Layer& layer = project.layers[layer_];
   const std::optional<int> frame = stream_ ? std::optional(frame_) : std::nullopt;
-  document::Motion motion;
-  if (mark == Mark::Handle) {
-    const std::vector<Index> points = selection_.indices();
-    motion = rigid_fit(bent(*input_, shown_, layer_, points), bent(*input_, shown_, layer_ + 1, points),
-                       1e-7 * bounds_.diagonal(), input_->origin);
-  }
+  const document::Motion motion = mark == Mark::Handle ? motion_of_new_handle() : document::Motion{};
   if (this->layer() != nullptr) {
     if (!moves()) layer = with_pivots(layer, handle_rest_centres(), input_->origin);
     layer = marked(layer, layer_points(), selection_, mark, motion, frame);
@@ -162,8 +212,8 @@ void Session::mark_selection(Mark mark) {
     layer = marked(layer, {}, selection_, mark, motion, frame);
   }
   forget_starts(project, layer_ + 1);
-  const char* what = mark == Mark::Fixed ? "Fix" : mark == Mark::Handle ? "Handle of" : "Free";
-  apply(std::move(project), counted(what, selection_.count()));
+  if (!refuse([&] { document::check_layers(project.layers, methods_); })) return;
+  apply(std::move(project), counted(step_of(mark), selection_.count()));
   if (mark == Mark::Handle) handle_ = history_.present().layers[layer_].handles.size() - 1;
 }
 

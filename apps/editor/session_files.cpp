@@ -72,7 +72,17 @@ struct Session::Opened {
 
 void Session::open(const std::string& path) {
   next_open_ = absolute(path);
-  if (background_->busy() && background_->can_cancel()) background_->cancel();
+  if (background_->busy() && background_->can_cancel()) {
+    background_->cancel();
+  } else if (has_input() && !background_->busy() && solver_->busy() && solver_->building() < 1) {
+    cancel_drag();
+    solver_->cancel();
+    wanted_frame_ = frame_;
+    playing_ = false;
+    answered_ = true;
+    settling_.reset();
+    failure_ = "Preparing the layer was cancelled; any change to it begins anew.";
+  }
   start_waiting();
 }
 
@@ -167,6 +177,7 @@ void Session::close() {
   after_neighbourhood_.clear();
   waiting_.clear();
   shown_.clear();
+  failure_.clear();
   bent_.clear();
   bent_ready_ = false;
   ++bent_version_;
@@ -311,7 +322,7 @@ void Session::export_frames(const Waiting& waiting) {
 std::optional<Job> Session::job() const {
   if (background_->busy())
     return Job{background_->what(), background_->fraction(), background_->seconds(), background_->can_cancel()};
-  if (solver_->busy() && solver_->building() < 1) return Job{"Preparing the layer", solver_->building(), 0, false};
+  if (solver_->busy() && solver_->building() < 1) return Job{"Preparing the layer", solver_->building(), 0, true};
   return std::nullopt;
 }
 

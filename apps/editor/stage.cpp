@@ -32,6 +32,24 @@ std::vector<Vec3> normals_of(const Shape& shape, std::span<const std::uint32_t> 
   return normals;
 }
 
+/// The chosen layer's answer, where it has a structure; else null.
+const document::LayerResult* structured(const Session& session) {
+  for (const document::LayerResult& result : session.shown())
+    if (result.layer == session.chosen_layer() && result.structure && result.pose) return &result;
+  return nullptr;
+}
+
+/// Where the vertices of a structure are now.
+std::vector<Vec3> bent_vertices(const document::LayerResult& result) {
+  const Deformer::Structure& structure = *result.structure;
+  std::vector<Vec3> out(structure.vertices.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Affine& map = (*result.pose)[structure.maps[i]];
+    out[i] = map.leftCols<3>() * structure.vertices[i] + map.col(3);
+  }
+  return out;
+}
+
 /// More splats than this are only moved while the mouse drags, and take their new form when it rests.
 constexpr std::size_t splats_bent_live = 100'000;
 
@@ -69,7 +87,35 @@ void Stage::update(gpu::Frame& frame, Session& session, const View& view) {
     if (pending_.marks) take_marks(session);
     if (splats_ && (pending_.marks || (bend && !only_moved_))) color_splats(session);
   }
+  take_solid(session, view);
   pending_ = {};
+}
+
+/// Faces are found anew for another structure or cut, and drawn anew where a vertex or its colour changed.
+void Stage::take_solid(Session& session, const View& view) {
+  const document::LayerResult* result = view.show_graph && view.cut_tets ? structured(session) : nullptr;
+  if (result == nullptr || result->structure->tets.empty() || !points_) {
+    solid_.reset();
+    solid_structure_.reset();
+    return;
+  }
+  const Deformer::Structure& structure = *result->structure;
+  const bool other = result->structure != solid_structure_ || view.section != section_;
+  if (other) solid_faces_ = gpu::faces_of(structure.vertices, structure.tets, view.section);
+  if (!other && !pending_.pose && !pending_.weights && !pending_.marks) return;
+  solid_structure_ = result->structure;
+  section_ = view.section;
+  solid_at_ = bent_vertices(*result);
+  const std::vector<std::uint8_t>& marks = session.point_marks();
+  const std::vector<float> stiffness = session.point_stiffness();
+  std::vector<gpu::PointColor> colors(solid_at_.size(), gpu::PointColor{204, 202, 198, 0});
+  for (std::size_t v = 0; v < colors.size(); ++v) {
+    const Index i = structure.points[v];
+    if (i >= marks.size()) continue;
+    if (!stiffness.empty()) colors[v] = gpu::stiffness_color(colors[v], static_cast<double>(stiffness[i]));
+    colors[v].marks = static_cast<std::uint8_t>(marks[i] & ~gpu::shared::mark_selected);
+  }
+  solid_ = gpu::create_solid(device_, solid_faces_, solid_at_, colors);
 }
 
 void Stage::take_input(const Shape& shape, const View& view) {
@@ -110,13 +156,17 @@ void Stage::color_splats(Session& session) {
     gpu::tint(*splats_, i, Eigen::Vector3i(r, g, b).cast<float>() / 255, part);
   };
   const std::vector<std::uint8_t>& marks = session.point_marks();
+  const std::vector<float> stiffness = session.point_stiffness();
   for (std::size_t i = 0; i < splats_->count; ++i) {
-    const gpu::PointColor& color = coloring_.colors[i];
-    if (!colored_by_.empty()) mix(i, color.r, color.g, color.b, 1);
+    gpu::PointColor color = coloring_.colors[i];
+    const bool changed = !stiffness.empty() && stiffness[i] != 1;
+    if (changed) color = gpu::stiffness_color(color, static_cast<double>(stiffness[i]));
+    if (changed || !colored_by_.empty()) mix(i, color.r, color.g, color.b, 1);
     // A selected splat's mark is seen through.
     const std::pair<unsigned, gpu::Color> tints[] = {{gpu::shared::mark_selected, look.outline},
                                                      {gpu::shared::mark_handle, look.handle},
-                                                     {gpu::shared::mark_fixed, look.fixed}};
+                                                     {gpu::shared::mark_fixed, look.fixed},
+                                                     {gpu::shared::mark_rigid, look.rigid}};
     for (const auto& [bit, tint] : tints)
       if ((marks[i] & bit) != 0) mix(i, tint.r, tint.g, tint.b, gpu::shared::mark_strength);
   }
@@ -126,6 +176,9 @@ void Stage::take_marks(Session& session) {
   const std::vector<std::uint8_t>& marks = session.point_marks();
   const std::span<gpu::PointColor> colors = gpu::colors_of(*points_);
   std::copy(coloring_.colors.begin(), coloring_.colors.end(), colors.begin());
+  const std::vector<float> stiffness = session.point_stiffness();
+  for (std::size_t i = 0; i < stiffness.size(); ++i)
+    colors[i] = gpu::stiffness_color(colors[i], static_cast<double>(stiffness[i]));
   for (std::size_t i = 0; i < marks.size(); ++i) colors[i].marks = marks[i];
 }
 
@@ -155,7 +208,12 @@ gpu::Scene Stage::scene(Session& session, const View& view, const Theme& theme, 
   if (!points_) return scene;
   scene.outline_selected = !session.selection().empty();
   const double size = view.point_size * static_cast<double>(scale());
-  if (is_mesh()) {
+  if (solid_) {
+    // The shape would hide what the cut laid bare.
+    if (solid_->triangles.count > 0)
+      scene.meshes.push_back({.points = &solid_->points, .triangles = &solid_->triangles, .flat = true});
+    if (is_mesh()) scene.meshes.push_back({.points = &*points_, .triangles = &triangles_, .ghost = 0.2});
+  } else if (is_mesh()) {
     scene.meshes.push_back({.points = &*points_, .triangles = &triangles_});
     if (view.show_rest)
       scene.meshes.push_back({.points = &*points_, .triangles = &triangles_, .rest = true, .ghost = 0.35});
@@ -189,24 +247,23 @@ gpu::Scene Stage::scene(Session& session, const View& view, const Theme& theme, 
 }
 
 void Stage::add_structure(gpu::Scene& scene, const Session& session, const View& view) const {
-  if (!view.show_graph) return;
-  for (const document::LayerResult& result : session.shown()) {
-    if (result.layer != session.chosen_layer() || !result.structure || !result.pose) continue;
-    const Deformer::Structure& structure = *result.structure;
-    std::vector<Vec3> vertices(structure.vertices.size());
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const Affine& map = (*result.pose)[structure.maps[i]];
-      vertices[i] = map.leftCols<3>() * structure.vertices[i] + map.col(3);
-    }
-    const bool light = scene.look.backdrop_top.r > 128;
-    const gpu::Color edge = light ? gpu::Color::hex(0x1a2230, 0.25) : gpu::Color::hex(0xffffff, 0.2);
-    const gpu::Color node = light ? gpu::Color::hex(0x1a2230, 0.7) : gpu::Color::hex(0xffffff, 0.7);
-    const double width = static_cast<double>(scale());
-    for (const auto& [a, b] : structure.edges)
-      scene.lines.push_back({.from = vertices[a], .to = vertices[b], .color = edge, .width = width, .hidden = 0.6});
-    for (const Vec3& vertex : vertices)
-      scene.dots.push_back({.position = vertex, .color = node, .radius = 2.0 * width, .hidden = 0.5});
+  const document::LayerResult* result = view.show_graph ? structured(session) : nullptr;
+  if (result == nullptr) return;
+  const bool light = scene.look.backdrop_top.r > 128;
+  const double width = static_cast<double>(scale());
+  const gpu::Color edge = light ? gpu::Color::hex(0x1a2230, 0.25) : gpu::Color::hex(0xffffff, 0.2);
+  if (solid_) {
+    gpu::add_edges(solid_faces_, solid_at_, {.color = gpu::Color::hex(0x14181e, 0.55), .width = width}, scene);
+    return;
   }
+  const Deformer::Structure& structure = *result->structure;
+  const std::vector<Vec3> vertices = bent_vertices(*result);
+  for (const auto& [a, b] : structure.edges)
+    scene.lines.push_back({.from = vertices[a], .to = vertices[b], .color = edge, .width = width, .hidden = 0.6});
+  if (!structure.tets.empty()) return;  // so many dots would hide the edges
+  const gpu::Color node = light ? gpu::Color::hex(0x1a2230, 0.7) : gpu::Color::hex(0xffffff, 0.7);
+  for (const Vec3& vertex : vertices)
+    scene.dots.push_back({.position = vertex, .color = node, .radius = 2.0 * width, .hidden = 0.5});
 }
 
 }  // namespace sinew::editor

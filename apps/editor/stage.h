@@ -9,6 +9,7 @@
 #include "apps/editor/view.h"
 #include "engine/gpu/paths.h"
 #include "engine/gpu/renderer.h"
+#include "engine/gpu/solid.h"
 #include "engine/gpu/splats.h"
 
 namespace sinew::editor {
@@ -37,6 +38,7 @@ class Stage {
   void bend_splats(Session& session);
   void color_splats(Session& session);
   void add_structure(gpu::Scene& scene, const Session& session, const View& view) const;
+  void take_solid(Session& session, const View& view);
 
   const gpu::Device& device_;
   const gpu::Paths& paths_;
@@ -49,6 +51,13 @@ class Stage {
   Coloring coloring_;
   std::string colored_by_;
   const SkinWeights* weights_ = nullptr;  ///< that the device has
+
+  /// The cut structure of a solid; null while none is shown.
+  std::shared_ptr<const Deformer::Structure> solid_structure_;
+  gpu::Section section_;
+  gpu::SolidFaces solid_faces_;
+  std::vector<Vec3> solid_at_;
+  std::optional<gpu::SolidItem> solid_;
 };
 
 }  // namespace sinew::editor

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/gpu/solid.h"
+
 namespace sinew::editor {
 
 namespace {
@@ -135,6 +137,11 @@ void use_theme(const Theme& theme, float scale) {
   style.AntiAliasedLinesUseTex = true;
   set_colors(style, theme);
   ImGui::GetStyle() = style;
+}
+
+ImVec4 stiffness_tint(double factor) {
+  const gpu::PointColor color = gpu::stiffness_color({205, 205, 205, 0}, factor);
+  return {static_cast<float>(color.r) / 255, static_cast<float>(color.g) / 255, static_cast<float>(color.b) / 255, 1};
 }
 
 }  // namespace sinew::editor

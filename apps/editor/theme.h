@@ -40,5 +40,7 @@ const Theme& theme();
 float scale();
 float px(float at_scale_1);  ///< rounded to whole pixels, never below 1 where `at_scale_1` is above 0
 ImU32 packed(const ImVec4& color, float opacity = 1);
+/// What stands for a stiffness in the interface.
+ImVec4 stiffness_tint(double factor);
 
 }  // namespace sinew::editor

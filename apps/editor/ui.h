@@ -26,6 +26,11 @@ struct Toast {
   double since = 0;
 };
 
+/// How many points the chosen layer marks.
+struct MarkCounts {
+  std::size_t fixed = 0, rigid = 0, stiffer = 0, softer = 0;
+};
+
 /// A question before something is lost; shown while its text is not empty.
 struct Question {
   std::string text, action;
@@ -38,7 +43,7 @@ struct Ui {
   Mouse& mouse;
   std::string device;  ///< "llvmpipe, CPU skinning"
   std::string sample;  ///< path of the sample scan; empty: none
-  std::size_t fixed_points = 0;
+  MarkCounts marks;
   Layout layout;
   float column_width = 272;  ///< at scale 1
   bool column_open = true;

@@ -229,11 +229,34 @@ bool mark_row(const char* id, const ImVec4& color, const char* name, const std::
   return pressed;
 }
 
+/// Rows of rigid regions and of stiffness, where the layer's method knows them.
+void show_material(Ui& ui) {
+  Session& session = ui.context.session;
+  const MarkCounts& marks = ui.marks;
+  const document::Layer* layer = session.layer();
+  if (layer == nullptr || session.method() == nullptr) return;
+  const Method::Parts& parts = session.method()->parts;
+  if (parts.rigid || marks.rigid > 0) {
+    const std::size_t groups = layer->rigid.size();
+    std::string value = marks.rigid == 0 ? "none" : grouped(marks.rigid) + " points";
+    if (groups > 1) value = fmt::format("{} · {}", groups, value);
+    if (mark_row("rigid", theme().rigid, "Rigid", value, false, "Regions that turn as one; click to select them"))
+      session.select_rigid();
+  }
+  const auto stiffness_row = [&](const char* id, double like, const char* name, std::size_t points) {
+    if (mark_row(id, stiffness_tint(like), name, points == 0 ? "none" : grouped(points) + " points", false,
+                 "Click to select the points whose stiffness is changed"))
+      session.select_stiff();
+  };
+  if (parts.stiffness || marks.stiffer > 0) stiffness_row("stiffer", 4, "Stiffer", marks.stiffer);
+  if (parts.stiffness || marks.softer > 0) stiffness_row("softer", 0.25, "Softer", marks.softer);
+}
+
 void show_marks(Ui& ui) {
   Session& session = ui.context.session;
   widget::heading("MARKS");
   const std::vector<HandleView> handles = session.handles();
-  const std::size_t fixed = ui.fixed_points;
+  const std::size_t fixed = ui.marks.fixed;
   const std::string count = handles.empty() ? "none" : std::to_string(handles.size());
   if (mark_row("handles", theme().handle, "Handles", count, false, "Click to select all points of the handles")) {
     session.select_none();
@@ -252,6 +275,7 @@ void show_marks(Ui& ui) {
   if (mark_row("fixed", theme().fixed, "Fixed", fixed == 0 ? "none" : grouped(fixed) + " points", false,
                "Click to select the fixed points"))
     session.select_fixed();
+  show_material(ui);
   if (session.layer() != nullptr && !session.layer()->cuts.empty())
     if (mark_row("cuts", theme().warning, "Cuts", std::to_string(session.layer()->cuts.size()), false,
                  "Click to remove the last cut"))
@@ -280,6 +304,17 @@ void show_legend(const Coloring& coloring) {
   ImGui::Dummy({width, height + px(8)});
   ImGui::TextDisabled("%s", fmt::format("{:.4g}", coloring.low).c_str());
   widget::value_right(fmt::format("{:.4g}", coloring.high), theme().faint);
+}
+
+/// Axis and place of the plane that cuts the tets.
+void show_section(gpu::Section& section) {
+  widget::label("Cut across", "The axis that the plane of the cut is perpendicular to");
+  const std::vector<std::string> axes{"X", "Y", "Z"};
+  auto axis = static_cast<std::size_t>(section.axis);
+  if (widget::choice("##axis", axis, axes)) section.axis = static_cast<int>(axis);
+  widget::label("Cut at", "How much of the shape along that axis is shown");
+  auto percent = static_cast<float>(100 * section.at);
+  if (widget::slider("##at", percent, 0, 100, "%.0f %%")) section.at = static_cast<double>(percent) / 100;
 }
 
 void show_look(Ui& ui) {
@@ -315,7 +350,12 @@ void show_look(Ui& ui) {
     ImGui::PopID();
   };
   if (ui.context.session.layer() != nullptr)
-    toggle("Structure", "Nodes and edges that the chosen layer's method bends", view.show_graph);
+    toggle("Structure", "Nodes, or tets, and edges that the chosen layer's method bends", view.show_graph);
+  if (ui.context.session.layer() != nullptr && ui.context.session.method() != nullptr &&
+      ui.context.session.method()->parts.solid && view.show_graph) {
+    toggle("Cut open", "The tets on one side of a plane through the shape, as a solid", view.cut_tets);
+    if (view.cut_tets) show_section(view.section);
+  }
   if (ui.context.session.layer() != nullptr)
     toggle("Rest shape", "A ghost of the shape before any edit", view.show_rest);
   toggle("Ground", "A grid below the shape", view.show_ground);

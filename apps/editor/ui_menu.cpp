@@ -31,6 +31,8 @@ void show_item(Ui& ui, const Command& command) {
   const bool enabled = command.enabled == nullptr || command.enabled(ui.context);
   if (ImGui::MenuItem(command.title, first_shortcut(command).c_str(), checked, enabled))
     run_command(command, ui.context);
+  if (!enabled && command.why_not != nullptr && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    if (const std::string why = command.why_not(ui.context); !why.empty()) widget::tooltip(why);
 }
 
 /// Rows of one menu path, with its submenus where their first row stands.
@@ -88,7 +90,9 @@ bool command_button(Ui& ui, const char* command, const char* icon, float side, c
   if (found == nullptr) return false;
   const bool enabled = found->enabled == nullptr || found->enabled(ui.context);
   ImGui::BeginDisabled(!enabled);
-  const bool pressed = widget::icon_button(icon, command, chosen, side, color, found->title, first_shortcut(*found));
+  const std::string why = !enabled && found->why_not != nullptr ? found->why_not(ui.context) : "";
+  const std::string help = why.empty() ? found->title : fmt::format("{}\n{}", found->title, why);
+  const bool pressed = widget::icon_button(icon, command, chosen, side, color, help, first_shortcut(*found));
   ImGui::EndDisabled();
   if (pressed) run_command(*found, ui.context);
   return pressed;

@@ -16,11 +16,11 @@ namespace {
 struct ToolRow {
   const char* command;
   const char* icon;
-  enum class Tint { Plain, Fixed, Handle, Free } tint = Tint::Plain;
+  enum class Tint { Plain, Fixed, Handle, Rigid, Stiffer, Softer } tint = Tint::Plain;
   int tool = -1;  ///< of enum Tool; -1: a command that is done at once
 };
 
-constexpr std::array<ToolRow, 12> rows{
+constexpr std::array<ToolRow, 16> rows{
     {{"tool.select", icon::pointer, ToolRow::Tint::Plain, static_cast<int>(Tool::Select)},
      {"tool.move", icon::move, ToolRow::Tint::Plain, static_cast<int>(Tool::Move)},
      {"tool.rotate", icon::rotate, ToolRow::Tint::Plain, static_cast<int>(Tool::Rotate)},
@@ -32,13 +32,19 @@ constexpr std::array<ToolRow, 12> rows{
      {"", ""},
      {"mark.fixed", icon::fixed, ToolRow::Tint::Fixed},
      {"mark.handle", icon::handle, ToolRow::Tint::Handle},
-     {"mark.free", icon::free, ToolRow::Tint::Free}}};
+     {"mark.rigid", icon::rigid, ToolRow::Tint::Rigid},
+     {"mark.stiffer", icon::stiffer, ToolRow::Tint::Stiffer},
+     {"mark.softer", icon::softer, ToolRow::Tint::Softer},
+     {"", ""},
+     {"mark.free", icon::free}}};
 
 ImVec4 color_of(ToolRow::Tint tint) {
   switch (tint) {
     case ToolRow::Tint::Fixed: return theme().fixed;
     case ToolRow::Tint::Handle: return theme().handle;
-    case ToolRow::Tint::Free:
+    case ToolRow::Tint::Rigid: return theme().rigid;
+    case ToolRow::Tint::Stiffer: return stiffness_tint(4);
+    case ToolRow::Tint::Softer: return stiffness_tint(0.25);
     case ToolRow::Tint::Plain: break;
   }
   return theme().quiet;
@@ -50,19 +56,25 @@ void panel_style() {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(2), px(2)));
 }
 
-float bar_height(float side) {
+/// Of the bar with one button a line, or two.
+float bar_height(float side, int columns) {
   float height = 2 * px(5) - px(2);
-  for (const ToolRow& row : rows) height += row.command[0] == 0 ? px(9) : side + px(2);
+  int in_line = 0;
+  for (const ToolRow& row : rows) {
+    const bool line = row.command[0] == 0;
+    if (line) height += px(9);
+    if (!line && in_line == 0) height += side + px(2);
+    in_line = line ? 0 : (in_line + 1) % columns;
+  }
   return height;
 }
 
 void show_bar(Ui& ui) {
   const float side = px(measure::tool_button), left = px(measure::edge);
   const float top = ui.layout.top + px(measure::edge), room = ui.layout.bottom - px(measure::edge) - top;
-  const bool one_column = bar_height(side) <= room;
+  const bool one_column = bar_height(side, 1) <= room;
   const float width = one_column ? px(measure::tool_column) : 2 * side + px(12);
-  float height = bar_height(side);
-  if (!one_column) height = 2 * px(5) - px(2) + 2 * px(9) + (2 + 2 + 2) * (side + px(2));
+  const float height = bar_height(side, one_column ? 1 : 2);
   panel_style();
   widget::begin_panel("tools", {left, top}, {width, height});
   bool second = false;
@@ -99,7 +111,7 @@ void show_switches(Ui& ui) {
     for (const char* name : spaces) width += std::round(ImGui::CalcTextSize(name).x) + px(18);
   }
   const bool two_columns =
-      bar_height(px(measure::tool_button)) > ui.layout.bottom - ui.layout.top - 2 * px(measure::edge);
+      bar_height(px(measure::tool_button), 1) > ui.layout.bottom - ui.layout.top - 2 * px(measure::edge);
   const float left =
       px(measure::edge) * 2 + (two_columns ? 2 * px(measure::tool_button) + px(12) : px(measure::tool_column));
   panel_style();

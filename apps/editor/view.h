@@ -8,6 +8,7 @@
 #include "apps/editor/manipulation.h"
 #include "apps/editor/navigation.h"
 #include "apps/editor/tools.h"
+#include "engine/gpu/solid.h"
 
 namespace sinew::editor {
 
@@ -29,7 +30,9 @@ struct View {
 
   double point_size = 2;  ///< pixels
   bool show_graph = false, show_rest = false, show_ground = true;
-  std::string color_by;  ///< an attribute's name; empty: plain
+  bool cut_tets = false;  ///< the structure of a solid is shown cut open
+  gpu::Section section;   ///< where
+  std::string color_by;   ///< an attribute's name; empty: plain
 
   /// A drag by gizmo or by G and R that runs now.
   std::optional<Manipulation> manipulation;

@@ -12,7 +12,7 @@ bool same_build(const SolveRequest& now, const SolveRequest& next, std::size_t i
   if (now.input != next.input || index >= next.layers.size()) return false;
   const Layer &a = now.layers[index], &b = next.layers[index];
   return b.on && a.method == b.method && a.settings == b.settings && a.nodes == b.nodes && a.path == b.path &&
-         a.cuts == b.cuts && a.frame == b.frame;
+         a.cuts == b.cuts && a.frame == b.frame && a.tets == b.tets;
 }
 
 }  // namespace

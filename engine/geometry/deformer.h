@@ -113,6 +113,8 @@ class Deformer {
     std::vector<Vec3> vertices;
     std::vector<std::pair<Index, Index>> edges;
     std::vector<Index> maps;
+    std::vector<Tet> tets = {};      ///< of a solid, of its vertices; else none
+    std::vector<Index> points = {};  ///< of a solid: the shape's point that each vertex is, or is nearest to
   };
   virtual Structure structure() const = 0;
 
