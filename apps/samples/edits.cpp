@@ -41,6 +41,19 @@ constexpr const char* bar = R"({ "sinew": 1,
   } ] }
 )";
 
+/// The upper end turns by 270 degrees; a block in the middle turns as one, and below it the bar is stiffer.
+constexpr const char* bar_tet = R"({ "sinew": 1,
+  "layers": [ {
+    "method": "tet",
+    "settings": { "vertices": 700, "filling": "inside" },
+    "fixed": [ { "box": [[-1, -1, -1], [1, 0.08, 1]] } ],
+    "rigid": [ { "box": [[-1, 0.9, -1], [1, 1.2, 1]] } ],
+    "stiffness": [ { "points": { "box": [[-1, 0.3, -1], [1, 0.6, 1]] }, "factor": 8 } ],
+    "handles": [ { "points": { "box": [[-1, 1.57, -1], [1, 2, 1]] },
+                   "rotate": { "axis": [0, 1, 0], "degrees": 270, "about": [0, 0, 0] }, "move": [0, 0, 0] } ]
+  } ] }
+)";
+
 /// The top bends by 70 degrees, along an arc of the length that lies between it and the root.
 constexpr const char* cactus = R"({ "sinew": 1,
   "layers": [ {
@@ -130,6 +143,10 @@ std::string edit_of(const std::string& sample) {
                                                         {"walk", walk},     {"soup", soup},         {"jet", jet}};
   const auto found = edits.find(sample);
   return found == edits.end() ? "" : found->second;
+}
+
+std::string tet_edit_of(const std::string& sample) {
+  return sample == "bar" ? bar_tet : "";
 }
 
 }  // namespace sinew::samples

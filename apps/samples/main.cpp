@@ -103,6 +103,7 @@ void make(const Sample& sample, const Options& options) {
   const std::string stem = (std::filesystem::path(options.folder) / sample.name).string();
   const std::string made = sample.make(stem, options);
   if (const std::string edit = edit_of(sample.name); !edit.empty()) save_text(stem + ".edit.json", edit);
+  if (const std::string edit = tet_edit_of(sample.name); !edit.empty()) save_text(stem + ".tet.edit.json", edit);
   std::cerr << made << '\n';
 }
 

@@ -23,7 +23,7 @@ namespace sinew::app {
 namespace {
 
 struct Options {
-  std::string input, from, png, edit, frame, size = "1280x720", view = "iso", show, up = "y", point_size;
+  std::string input, from, png, edit, frame, size = "1280x720", view = "iso", show, up = "y", point_size, cut;
   bool force = false;
 };
 
@@ -32,6 +32,18 @@ int parse_side(const std::string& text, const std::string& whole) {
   if (!io::parse(text, side) || side < 1 || side > 16384)
     throw UsageError("--size: expected WIDTHxHEIGHT, each from 1 to 16384, found " + sinew::quoted(whole));
   return static_cast<int>(side);
+}
+
+/// "z=0.5": what of the tets is shown.
+std::optional<gpu::Section> section_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  gpu::Section out;
+  const std::string axes = "xyz";
+  const std::size_t axis = text.size() > 2 && text[1] == '=' ? axes.find(text[0]) : std::string::npos;
+  if (axis == std::string::npos || !io::parse(text.substr(2), out.at) || !(out.at >= 0 && out.at <= 1))
+    throw UsageError("--cut: expected an axis and a part from 0 to 1, such as z=0.5, found " + sinew::quoted(text));
+  out.axis = static_cast<int>(axis);
+  return out;
 }
 
 View view_of(const Options& options) {
@@ -43,6 +55,7 @@ View view_of(const Options& options) {
   if (options.up != "y" && options.up != "z")
     throw UsageError("--up: expected y or z, found " + sinew::quoted(options.up));
   view.z_up = options.up == "z";
+  view.section = section_of(options.cut);
   if (!options.point_size.empty() &&
       !(io::parse(options.point_size, view.point_size) && view.point_size >= 1 && view.point_size <= 64))
     throw UsageError("--point-size: expected 1 to 64 pixels, found " + sinew::quoted(options.point_size));
@@ -71,6 +84,15 @@ void check_fields(const std::set<std::string>& show, bool has_edit) {
   if ((energy || displacement) && !has_edit)
     throw UsageError(
         fmt::format("--show {}: expected an edit (--edit), found none", energy ? "energy" : "displacement"));
+}
+
+/// Tets are there only where a layer's method makes some.
+void check_tets(const Options& options, const std::set<std::string>& show, const document::Project& project) {
+  if (!options.cut.empty() && !show.contains("tets")) throw UsageError("--cut: expected --show tets, found none");
+  if (!show.contains("tets")) return;
+  for (const document::Layer& layer : project.layers)
+    if (layer.on && document::method_of(layer, methods()).parts.solid) return;
+  throw UsageError("--show tets: expected an edit (--edit) with a layer of the method tet, found none");
 }
 
 int frame_of(const Options& options, const Sequence& sequence) {
@@ -110,6 +132,7 @@ int run(const Options& options) {
     project = document::read_edit(options.edit);
     document::check_layers(project.layers, methods());
   }
+  check_tets(options, show, project);
   const std::shared_ptr<const Sequence> sequence = open_input(options.input, options.from);
   const int frame = frame_of(options, *sequence);
   document::Workspace workspace(sequence, methods());
@@ -143,8 +166,10 @@ std::function<int()> declare_render(Arguments& arguments) {
                    "front, back, left, right, top, bottom, iso (without), or eye and target ex,ey,ez,tx,ty,tz");
   arguments.option(
       "--show", "LIST", options->show,
-      "Some of graph, handles, fixed, rest (the shape before, faintly), ground, points (in place of splats or "
-      "faces), energy or displacement (as colours); with commas");
+      "Some of graph, tets (in place of the shape), handles, fixed, rigid, stiffness, rest (the shape before, "
+      "faintly), ground, points (in place of splats or faces), energy or displacement (as colours); with commas");
+  arguments.option("--cut", "AXIS=PART", options->cut,
+                   "Of the tets only this part of their extent along an axis: z=0.5");
   arguments.option("--up", "AXIS", options->up, "y (without) or z: what is up in the picture");
   arguments.option("--point-size", "PIXELS", options->point_size, "Diameter of points; without, from their number");
   arguments.option("--from", "EXT", options->from, "Format of standard input, by an extension");

@@ -111,6 +111,14 @@ void color_splats(std::span<const gpu::PointColor> colors, bool field, const gpu
   }
 }
 
+/// Factors of a point that is named several times add up as a product.
+void color_stiffness(const Constraints& constraints, std::vector<gpu::PointColor>& colors) {
+  std::vector<double> factors(colors.size(), 1);
+  for (const Stiff& stiff : constraints.stiffness)
+    for (const Index i : stiff.points) factors[i] *= stiff.factor;
+  for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = gpu::stiffness_color(colors[i], factors[i]);
+}
+
 /// A ball at the mean of where each handle's points are to be.
 void add_handles(const document::LayerResult& layer, gpu::Scene& scene) {
   for (const Handle& handle : layer.constraints.handles) {
@@ -120,15 +128,21 @@ void add_handles(const document::LayerResult& layer, gpu::Scene& scene) {
   }
 }
 
+/// Where a structure is under a pose.
+std::vector<Vec3> posed(const Deformer::Structure& structure, const Pose& pose) {
+  std::vector<Vec3> out(structure.vertices.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Affine& map = pose[structure.maps[i]];
+    out[i] = map.leftCols<3>() * structure.vertices[i] + map.col(3);
+  }
+  return out;
+}
+
 /// Lines and dots of the method's own structure, carried along by the pose; with the energy of each map as the colour
 /// of its dots where `energy` has colours.
 void add_structure(const Deformer::Structure& structure, const Pose& pose, const Field* energy,
                    std::span<const double> energies, gpu::Scene& scene) {
-  std::vector<Vec3> at(structure.vertices.size());
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    const Affine& map = pose[structure.maps[i]];
-    at[i] = map.leftCols<3>() * structure.vertices[i] + map.col(3);
-  }
+  const std::vector<Vec3> at = posed(structure, pose);
   for (const auto& [a, b] : structure.edges) {
     gpu::Line line;
     line.from = at[a];
@@ -153,6 +167,27 @@ void add_structure(const Deformer::Structure& structure, const Pose& pose, const
   }
 }
 
+/// Tets as solids, in the colours of the points that their corners are or are nearest to.
+void add_solids(const gpu::Device& device, const document::Evaluation& evaluation,
+                std::span<const gpu::PointColor> colors, const std::optional<gpu::Section>& section, DrawnShape& out) {
+  for (const document::LayerResult& layer : evaluation.layers) {
+    const Deformer::Structure& structure = *layer.structure;
+    if (structure.tets.empty()) continue;
+    const gpu::SolidFaces faces = gpu::faces_of(structure.vertices, structure.tets, section);
+    if (faces.faces.empty()) continue;
+    const std::vector<Vec3> at = posed(structure, *layer.pose);
+    std::vector<gpu::PointColor> corners(at.size());
+    for (std::size_t v = 0; v < corners.size(); ++v)
+      if (structure.points[v] < colors.size()) corners[v] = colors[structure.points[v]];
+    out.solids.push_back(gpu::create_solid(device, faces, at, corners));
+    gpu::Line edge;
+    edge.color = gpu::Color::hex(0x14181e, 0.5);
+    gpu::add_edges(faces, at, edge, out.scene);
+  }
+  for (const gpu::SolidItem& solid : out.solids)
+    out.scene.meshes.push_back({.points = &solid.points, .triangles = &solid.triangles, .flat = true});
+}
+
 /// What `show` asks to see of the edit's layers: marks on points, balls, structures.
 void add_layers(const document::Evaluation& evaluation, const std::set<std::string>& show,
                 std::vector<gpu::PointColor>& colors, DrawnShape& out) {
@@ -160,6 +195,9 @@ void add_layers(const document::Evaluation& evaluation, const std::set<std::stri
   for (std::size_t i = 0; i < evaluation.layers.size(); ++i) {
     const document::LayerResult& layer = evaluation.layers[i];
     if (show.contains("fixed") && layer.of_frame) mark(colors, layer.constraints.fixed, gpu::shared::mark_fixed);
+    if (show.contains("rigid") && layer.of_frame)
+      for (const std::vector<Index>& group : layer.constraints.rigid) mark(colors, group, gpu::shared::mark_rigid);
+    if (show.contains("stiffness") && layer.of_frame) color_stiffness(layer.constraints, colors);
     if (show.contains("handles")) {
       if (layer.of_frame)
         for (const Handle& handle : layer.constraints.handles) mark(colors, handle.points, gpu::shared::mark_handle);
@@ -200,6 +238,7 @@ void fill_scene(const gpu::Device& device, const Shape& input, const document::E
       for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = color_of(*out.field, out.field->values[i]);
     add_layers(*evaluation, show, colors, out);
   }
+  const bool tets = evaluation != nullptr && show.contains("tets");
   const double size = size_of_points(view, shape.size());
   const auto add = [&](gpu::Points& points, const Shape& of, bool ghost) {
     points = gpu::create_points(device, false, of.positions, normals_of(of));
@@ -211,7 +250,9 @@ void fill_scene(const gpu::Device& device, const Shape& input, const document::E
       out.scene.meshes.push_back({.points = &points, .triangles = &out.triangles, .ghost = opacity});
   };
   if (!shape.faces.empty()) out.triangles = gpu::create_triangles(device, triangles_of(shape.faces));
-  if (splats && !show.contains("points")) {
+  if (tets) {
+    add_solids(device, *evaluation, colors, view.section, out);
+  } else if (splats && !show.contains("points")) {
     color_splats(colors, out.field.has_value(), out.scene.look, out.splats);
     out.scene.splats.push_back({&out.splats});
   } else {

@@ -129,6 +129,70 @@ TEST(SinewRender, BentSplatsAreDrawn) {
   EXPECT_GT(blue.at(static_cast<int>(from.x()), static_cast<int>(from.y()))[2], 100);
 }
 
+TEST(SinewRender, TetsAreDrawnCutOpenAndInTheColoursOfTheirMaterial) {
+  const TemporaryFolder folder;
+  save(folder / "block.obj", R"(v -1 -1 -1
+v 1 -1 -1
+v 1 1 -1
+v -1 1 -1
+v -1 -1 1
+v 1 -1 1
+v 1 1 1
+v -1 1 1
+f 1 4 3 2
+f 5 6 7 8
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+)");
+  save(folder / "edit.json", R"({ "sinew": 1, "layers": [ { "method": "tet",
+    "fixed": [ { "box": [[-2, -2, -2], [-0.9, 2, 2]] } ],
+    "rigid": [ { "box": [[0.9, -2, -2], [2, 2, 2]] } ],
+    "stiffness": [ { "points": { "box": [[0.9, -2, -2], [2, 2, 2]] }, "factor": 16 } ],
+    "handles": [ { "points": { "box": [[0.9, 0.9, -2], [2, 2, 2]] }, "move": [0.2, 0, 0] } ] } ] })");
+  const auto draw = [&](const std::string& show, const std::string& cut) {
+    std::vector<std::string> arguments{folder / "block.obj", "--edit", folder / "edit.json", "--view", "front"};
+    arguments.insert(arguments.end(), {"--show", show});
+    if (!cut.empty()) arguments.insert(arguments.end(), {"--cut", cut});
+    return drawn(folder, arguments);
+  };
+  // Pixels where red, green and blue differ as they do in what is looked for.
+  const auto count = [](const gpu::Picture& picture, auto like) {
+    int out = 0;
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x) {
+        const std::uint8_t* c = picture.at(x, y);
+        out += like(int{c[0]}, int{c[1]}, int{c[2]});
+      }
+    return out;
+  };
+  const auto violet = [](int r, int g, int b) { return b > g + 30 && r > g + 10; };
+  const auto red = [](int r, int g, int b) { return r > g + 40 && r > b + 20; };
+  const auto sand = [](int r, int g, int b) { return r > b + 25 && g > b + 10; };
+  const gpu::Picture plain = draw("tets", "");
+  EXPECT_GT(covered(plain), 0.1);
+  EXPECT_EQ(count(plain, violet) + count(plain, red), 0);
+  EXPECT_GT(count(draw("tets,rigid", ""), violet), 300);
+  EXPECT_GT(count(draw("tets,stiffness", ""), red), 300);
+  EXPECT_GT(count(draw("stiffness", ""), red), 300) << "on the shape itself";
+  EXPECT_EQ(covered(draw("tets", "x=0")), 0);
+  EXPECT_GT(count(draw("tets", "z=0.5"), sand), count(plain, sand) + 300);
+  const auto refused = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"render", folder / "block.obj", "-o", folder / "x.png"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_sinew(arguments);
+    EXPECT_EQ(outcome.status, 2);
+    return outcome.err;
+  };
+  EXPECT_EQ(refused({"--show", "tets"}),
+            "sinew: --show tets: expected an edit (--edit) with a layer of the method tet, found none\n");
+  EXPECT_EQ(refused({"--cut", "z=0.5"}), "sinew: --cut: expected --show tets, found none\n");
+  for (const std::string cut : {"w=0.5", "z", "z=2", "z=nan", "0.5"})
+    EXPECT_EQ(refused({"--cut", cut}),
+              "sinew: --cut: expected an axis and a part from 0 to 1, such as z=0.5, found \"" + cut + "\"\n");
+}
+
 TEST(SinewRender, EnergyAndDisplacementAreColoursWithALegend) {
   const TemporaryFolder folder;
   save(folder / "scan.ply", sheet_ply());
