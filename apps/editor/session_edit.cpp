@@ -181,7 +181,7 @@ document::Motion Session::motion_of_new_handle() {
   if (most == 0) return fitted;
   document::Motion own = motion_now(of);
   const std::optional<Vec3> turn = document::turn_of(own);
-  if (!turn) return fitted;
+  if (!turn || !own.rotate) return fitted;
   if (most == points.size() && own.to.get().empty()) {  // part of a handle moves as it did
     if (!own.rotate->about) own.rotate->about = handle_rest_centres()[of] + input_->origin;
     return own;

@@ -200,7 +200,8 @@ std::vector<Vec3> handle_places(const HandleEdit& handle, const Vec3& origin) {
 }
 
 std::optional<Vec3> turn_of(const Motion& motion) {
-  if (!motion.rotate) return std::nullopt;
+  if (motion.matrix || !motion.to.get().empty()) return std::nullopt;
+  if (!motion.rotate) return Vec3(0, 0, 0);
   return motion.rotate->axis.stableNormalized() * (motion.rotate->degrees * (std::numbers::pi / 180));
 }
 

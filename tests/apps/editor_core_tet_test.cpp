@@ -42,15 +42,23 @@ std::string errors_of(Session& session) {
   return out;
 }
 
+/// What the session keeps saying is wrong.
+std::string failure_of(const Session& session) {
+  for (const Notice& hint : session.hints())
+    if (hint.severity == Severity::Error) return hint.text;
+  return {};
+}
+
 /// A closed bar of 0.5 x 1.65 x 0.5 along y.
 class EditorTet : public ::testing::Test {
  protected:
-  void open(const Shape& shape) {
+  /// With so many vertices the points of the bar are vertices of tets.
+  void open(const Shape& shape, double vertices = 10'000) {
     io::write(input(), shape, true);
     session.open(input());
     ASSERT_TRUE(until(session, [&] { return session.has_input(); })) << errors_of(session);
     session.add_layer("tet");
-    session.set_setting(0, "vertices", 400.0);
+    session.set_setting(0, "vertices", vertices);
   }
   void select_between(double low, double high) {
     PointSet out(session.input()->size());
@@ -174,6 +182,8 @@ TEST_F(EditorTet, TurnsAddUpAcrossDrags) {
   for (int drag = 0; drag < 3; ++drag) {
     ASSERT_TRUE(session.begin_drag(0));
     session.drag_to(turn_by(Vec3::UnitY(), 100, pivot));
+    const std::uint64_t ticket = session.asked();
+    ASSERT_TRUE(until(session, [&] { return session.shown_ticket() == ticket; }));
     session.end_drag();
     ASSERT_TRUE(settle(session));
   }
@@ -183,7 +193,7 @@ TEST_F(EditorTet, TurnsAddUpAcrossDrags) {
   session.end_drag();
   ASSERT_TRUE(settle(session));
   const document::Rotation& rotate = *session.layer()->handles[0].motion.rotate;
-  EXPECT_NEAR(rotate.degrees * rotate.axis.normalized().y(), 300, 5);
+  EXPECT_NEAR(rotate.degrees * rotate.axis.normalized().y(), 300, 8);
   EXPECT_NEAR(std::abs(turned_at(0.825)), 150, 12);
 }
 
@@ -276,17 +286,16 @@ TEST_F(EditorTet, AnOpenShapeIsRefusedInOneSentenceAndTheOtherMethodBringsItBack
   const std::string errors = errors_of(session);
   EXPECT_NE(errors.find("hole"), std::string::npos) << errors;
   EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
-  ASSERT_FALSE(session.hints().empty());
-  EXPECT_EQ(session.hints().front().text + "\n", errors);
+  EXPECT_EQ(failure_of(session) + "\n", errors);
   // Said once, though it is asked again.
   session.set_setting(0, "filling", "inside");
   ASSERT_TRUE(settle(session));
   EXPECT_EQ(errors_of(session), "");
-  EXPECT_FALSE(session.hints().empty());
+  EXPECT_FALSE(failure_of(session).empty());
   session.set_method(0, "graph");
   ASSERT_TRUE(settle(session));
   EXPECT_EQ(errors_of(session), "");
-  EXPECT_TRUE(session.hints().empty());
+  EXPECT_EQ(failure_of(session), "");
   ASSERT_EQ(session.shown().size(), 1u);
 }
 
@@ -295,18 +304,17 @@ TEST_F(EditorTet, PreparingCanBeCancelled) {
   ASSERT_TRUE(settle(session));
   session.add_layer("tet");
   session.set_setting(0, "vertices", 6000.0);
-  ASSERT_TRUE(until(session, [&] { return session.job() && session.job()->can_cancel; }));
+  ASSERT_TRUE(until(session, [&] { return session.job() && session.job()->what == "Preparing the layer"; }));
   session.cancel_job();
   ASSERT_TRUE(until(session, [&] { return !session.job(); }));
   EXPECT_FALSE(session.solving());
-  ASSERT_FALSE(session.hints().empty());
-  EXPECT_NE(session.hints().front().text.find("cancelled"), std::string::npos);
+  EXPECT_EQ(failure_of(session), "Preparing the layer was cancelled; any change to it begins anew.");
   // Any change begins anew.
   session.set_setting(0, "vertices", 300.0);
   ASSERT_TRUE(settle(session));
   ASSERT_EQ(session.shown().size(), 1u);
   EXPECT_FALSE(session.shown()[0].structure->tets.empty());
-  EXPECT_TRUE(session.hints().empty());
+  EXPECT_EQ(failure_of(session), "");
 }
 
 TEST(SolidFaces, ACutShowsTheFacesThatItLaysBare) {
