@@ -41,7 +41,7 @@ constexpr const char* bar = R"({ "sinew": 1,
   } ] }
 )";
 
-/// The upper end turns by 270 degrees; a block in the middle turns as one, and below it the bar is stiffer.
+/// The upper end turns by 135 degrees; a block in the middle turns as one, and below it the bar is stiffer.
 constexpr const char* bar_tet = R"({ "sinew": 1,
   "layers": [ {
     "method": "tet",
@@ -50,7 +50,7 @@ constexpr const char* bar_tet = R"({ "sinew": 1,
     "rigid": [ { "box": [[-1, 0.9, -1], [1, 1.2, 1]] } ],
     "stiffness": [ { "points": { "box": [[-1, 0.3, -1], [1, 0.6, 1]] }, "factor": 8 } ],
     "handles": [ { "points": { "box": [[-1, 1.57, -1], [1, 2, 1]] },
-                   "rotate": { "axis": [0, 1, 0], "degrees": 270, "about": [0, 0, 0] }, "move": [0, 0, 0] } ]
+                   "rotate": { "axis": [0, 1, 0], "degrees": 135, "about": [0, 0, 0] }, "move": [0, 0, 0] } ]
   } ] }
 )";
 
