@@ -15,6 +15,7 @@
 #include "engine/document/edit.h"
 #include "engine/document/evaluate.h"
 #include "engine/io/io.h"
+#include "tests/apps/editor_session.h"
 #include "tests/io/temporary_folder.h"
 
 namespace sinew::editor {
@@ -42,20 +43,6 @@ PointSet points_where(const Session& session, const std::function<bool(const Vec
   return out;
 }
 
-bool until(Session& session, const std::function<bool()>& done) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-  while (std::chrono::steady_clock::now() < end) {
-    session.poll();
-    if (done()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
-}
-
-bool settle(Session& session) {
-  return until(session, [&] { return !session.solving() && !session.job(); });
-}
-
 std::vector<Vec3> bent_of(Session& session) {
   const std::span<const Vec3> bent = session.bent_positions();
   return {bent.begin(), bent.end()};
@@ -65,13 +52,6 @@ double distance(std::span<const Vec3> a, std::span<const Vec3> b) {
   EXPECT_EQ(a.size(), b.size());
   double out = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) out = std::max(out, (a[i] - b[i]).norm());
-  return out;
-}
-
-std::string errors_of(Session& session) {
-  std::string out;
-  for (const Notice& notice : session.take_notices())
-    if (notice.severity == Severity::Error) out += notice.text + "\n";
   return out;
 }
 

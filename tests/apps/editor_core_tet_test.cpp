@@ -15,32 +15,12 @@
 #include "engine/document/evaluate.h"
 #include "engine/io/io.h"
 #include "shaders/shared.h"
+#include "tests/apps/editor_session.h"
 #include "tests/io/temporary_folder.h"
 
 namespace sinew::editor {
 
 namespace {
-
-bool until(Session& session, const std::function<bool()>& done) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-  while (std::chrono::steady_clock::now() < end) {
-    session.poll();
-    if (done()) return true;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return false;
-}
-
-bool settle(Session& session) {
-  return until(session, [&] { return !session.solving() && !session.job(); });
-}
-
-std::string errors_of(Session& session) {
-  std::string out;
-  for (const Notice& notice : session.take_notices())
-    if (notice.severity == Severity::Error) out += notice.text + "\n";
-  return out;
-}
 
 /// What the session keeps saying is wrong.
 std::string failure_of(const Session& session) {

@@ -14,6 +14,7 @@
 #include "engine/document/evaluate.h"
 #include "engine/io/io.h"
 #include "engine/io/sequence.h"
+#include "tests/apps/editor_session.h"
 #include "tests/io/temporary_folder.h"
 
 namespace sinew::editor {
@@ -100,25 +101,9 @@ class EditorTime : public ::testing::Test {
     ASSERT_EQ(session.frame(), frame);
   }
 
-  bool until(const std::function<bool()>& done) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-    while (std::chrono::steady_clock::now() < end) {
-      session.poll();
-      if (done()) return true;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return false;
-  }
-  bool settle() {
-    return until([&] { return !session.solving() && !session.job(); });
-  }
-
-  std::string errors() {
-    std::string out;
-    for (const Notice& notice : session.take_notices())
-      if (notice.severity == Severity::Error) out += notice.text + "\n";
-    return out;
-  }
+  bool until(const std::function<bool()>& done) { return editor::until(session, done); }
+  bool settle() { return editor::settle(session); }
+  std::string errors() { return errors_of(session); }
 
   std::vector<int> keys() const {
     std::vector<int> out;
