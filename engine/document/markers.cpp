@@ -127,10 +127,6 @@ Handle Markers::handle(int frame, const Vec3& origin) const {
   return out;
 }
 
-std::shared_ptr<const Markers> markers_of(const Layer& layer) {
-  return layer.markers ? std::make_shared<const Markers>(*layer.markers) : nullptr;
-}
-
 Sequence with_frames_of_markers(const Sequence& input, std::span<const Layer> layers) {
   if (input.frames.size() > 1) return input;
   for (const Layer& layer : layers) {

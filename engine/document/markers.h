@@ -46,9 +46,6 @@ class Markers {
   std::vector<std::string> notes_;
 };
 
-/// The motions of the layers that have one, in their order; a file is read once.
-std::shared_ptr<const Markers> markers_of(const Layer& layer);
-
 /// The input with a frame for each of the motion that drives a layer; as it is where no layer that is on has markers,
 /// or it has frames of its own.
 Sequence with_frames_of_markers(const Sequence& input, std::span<const Layer> layers);
