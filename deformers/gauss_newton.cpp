@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "deformers/curvature.h"
+
 namespace sinew {
 
 namespace {
@@ -43,43 +45,6 @@ bool factorize(const GaussNewtonModel& model, KeptFactor& kept, const Vector& g)
   return false;
 }
 
-/// What the last steps told of the curvature that J'J lacks (the second derivatives of f): limited-memory BFGS [Nocedal
-/// 1980] around the kept factor. Gauss-Newton alone converges linearly where f is not small at the minimum.
-class Curvature {
- public:
-  void clear() { pairs_.clear(); }
-
-  /// The gradient changed by y over the step s.
-  void add(const Vector& s, const Vector& y) {
-    const double sy = s.dot(y);
-    if (!(sy > 1e-10 * s.norm() * y.norm())) return;
-    if (pairs_.size() == memory) pairs_.erase(pairs_.begin());
-    pairs_.push_back({s, y, 1 / sy});
-  }
-
-  /// step <- -(approximate Hessian)^-1 g.
-  template <class Solve>
-  void solve(const Solve& inverse, const Vector& g, Vector& step) const {
-    step = -g;
-    std::vector<double> a(pairs_.size());
-    for (std::size_t i = pairs_.size(); i-- > 0;) {
-      a[i] = pairs_[i].rho * pairs_[i].s.dot(step);
-      step -= a[i] * pairs_[i].y;
-    }
-    inverse(span_of(step));
-    for (std::size_t i = 0; i < pairs_.size(); ++i)
-      step += (a[i] - pairs_[i].rho * pairs_[i].y.dot(step)) * pairs_[i].s;
-  }
-
- private:
-  static constexpr std::size_t memory = 6;
-  struct Pair {
-    Vector s, y;
-    double rho;
-  };
-  std::vector<Pair> pairs_;
-};
-
 /// Halves the step until F does not rise; the trial is then x + scale * step. With a factor that is not of this x only
 /// the whole step is tried: where that rises, a new factor helps more than a short step. F is infinite where nothing
 /// went down.
@@ -112,8 +77,8 @@ GaussNewtonResult gauss_newton(const GaussNewtonModel& model, KeptFactor& kept, 
   GaussNewtonResult result;
   const auto of_factor = static_cast<Eigen::Index>(kept.H.size()) * kept.H.block;
   const auto n = model.unknowns > 0 ? static_cast<Eigen::Index>(model.unknowns) : of_factor;
-  const auto inverse = [&](std::span<double> x) {
-    model.precondition ? model.precondition(kept.cholesky, x) : kept.cholesky.solve(x);
+  const auto inverse = [&](Vector& x) {
+    model.precondition ? model.precondition(kept.cholesky, span_of(x)) : kept.cholesky.solve(span_of(x));
   };
   double F = model.energy();
   result.energy = F;
@@ -124,7 +89,8 @@ GaussNewtonResult gauss_newton(const GaussNewtonModel& model, KeptFactor& kept, 
     return result;
   }
   Vector g(n), former_g(n), step(n);
-  Curvature curvature;
+  // J'J lacks the second derivatives of f: alone it converges linearly where f is not small at the minimum.
+  Curvature curvature(6, 1e-10);
   bool fresh = false, accepted = false, renew = !options.keep_factor || !kept.usable;
   double former_length = 0;
   int steps_with_factor = 0;

@@ -340,10 +340,7 @@ class TetDeformer final : public Deformer {
 
   Vec3 place_of(const TetHandle& held, std::size_t k) const {
     if (k < held.vertices.size()) return solver_->x()[held.vertices[k]];
-    const TetTie& tie = held.ties[k - held.vertices.size()];
-    Vec3 p = Vec3::Zero();
-    for (std::size_t a = 0; a < 4; ++a) p += tie.weights[a] * solver_->x()[tie.vertices[a]];
-    return p;
+    return held.ties[k - held.vertices.size()].at(solver_->x());
   }
 
   void measure_handles(const Constraints& constraints, SolveReport& report) const {

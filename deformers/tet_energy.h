@@ -29,6 +29,12 @@ namespace sinew {
 struct TetTie {
   std::array<Index, 4> vertices{};
   std::array<double, 4> weights{};  ///< sum to 1
+
+  Vec3 at(std::span<const Vec3> x) const {
+    Vec3 p = Vec3::Zero();
+    for (std::size_t a = 0; a < 4; ++a) p += weights[a] * x[vertices[a]];
+    return p;
+  }
 };
 
 class TetEnergy {

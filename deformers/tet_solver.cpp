@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <deque>
 
+#include "deformers/curvature.h"
 #include "engine/geometry/check.h"
 #include "engine/geometry/union_find.h"
 
@@ -14,41 +14,6 @@ namespace sinew {
 namespace {
 
 using Vector = Eigen::VectorXd;
-
-/// Two-loop recursion of limited-memory BFGS [Nocedal and Wright 2006, algorithm 7.4] around a fixed solver.
-class Memory {
- public:
-  void add(Vector step, Vector change) {
-    const double curvature = step.dot(change);
-    // Where the energy is not convex along the step the pair says nothing of use.
-    if (!(curvature > 1e-12 * step.norm() * change.norm())) return;
-    pairs_.push_back({std::move(step), std::move(change), 1 / curvature});
-    if (pairs_.size() > most) pairs_.pop_front();
-  }
-  bool empty() const { return pairs_.empty(); }
-  void clear() { pairs_.clear(); }
-
-  template <class Solve>
-  Vector direction(Vector g, const Solve& solve) const {
-    std::vector<double> a(pairs_.size());
-    for (std::size_t i = pairs_.size(); i-- > 0;) {
-      a[i] = pairs_[i].rho * pairs_[i].step.dot(g);
-      g -= a[i] * pairs_[i].change;
-    }
-    solve(g);
-    for (std::size_t i = 0; i < pairs_.size(); ++i)
-      g += (a[i] - pairs_[i].rho * pairs_[i].change.dot(g)) * pairs_[i].step;
-    return -g;
-  }
-
- private:
-  static constexpr std::size_t most = 8;
-  struct Pair {
-    Vector step, change;
-    double rho;
-  };
-  std::deque<Pair> pairs_;
-};
 
 }  // namespace
 
@@ -198,16 +163,17 @@ SolveReport TetSolver::solve(std::span<const TetTarget> targets, const SolveOpti
   const double share = final_answer ? options.epsilon : 1e2 * options.epsilon;
   double E = energy_.evaluate(x_, TetEnergy::Rotations::Nearest, g);
   Vector gradient = flat(g);
-  Memory memory;
+  Curvature memory(8, 1e-12);
   std::vector<Vec3> trial = x_, trial_g(rest_.size());
   report.status = free_.empty() ? Status::Converged : Status::MaxIterations;
   int small_steps = 0;
   while (!free_.empty() && report.iterations < options.max_iterations) {
-    Vector p = memory.direction(gradient, solve_factor);
+    Vector p;
+    memory.solve(solve_factor, gradient, p);
     double slope = 2 * gradient.dot(p);
     if (!(slope < 0)) {
       memory.clear();
-      p = memory.direction(gradient, solve_factor);
+      memory.solve(solve_factor, gradient, p);
       slope = 2 * gradient.dot(p);
     }
     if (!(slope < 0) || !p.allFinite()) {

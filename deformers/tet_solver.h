@@ -68,7 +68,6 @@ class TetSolver {
   TetEnergy& energy() { return energy_; }
   const TetEnergy& energy() const { return energy_; }
   std::size_t free_vertices() const { return free_.size(); }
-  std::size_t factor_values() const { return cholesky_.factor_values(); }
   std::size_t resting_parts() const { return resting_parts_; }
 
  private:

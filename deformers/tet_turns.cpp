@@ -51,11 +51,7 @@ bool fix_rotation(const std::vector<Vec3>& points) {
 std::vector<Vec3> points_of(const TetHandle& handle, const std::vector<Vec3>& x) {
   std::vector<Vec3> out;
   for (const Index v : handle.vertices) out.push_back(x[v]);
-  for (const TetTie& tie : handle.ties) {
-    Vec3 p = Vec3::Zero();
-    for (std::size_t a = 0; a < 4; ++a) p += tie.weights[a] * x[tie.vertices[a]];
-    out.push_back(p);
-  }
+  for (const TetTie& tie : handle.ties) out.push_back(tie.at(x));
   return out;
 }
 
