@@ -131,6 +131,29 @@ TEST(PoseDecimate, BoundaryStaysWhereItIs) {
       }
 }
 
+// Two poses within one plane, shaken apart from each other: no triangle turns over in either.
+TEST(PoseDecimate, NothingFoldsOverInAnyPose) {
+  const Mesh flat = sheet(40);
+  std::vector<std::vector<Vec3>> poses(2, flat.positions);
+  for (Index v = 0; v < flat.positions.size(); ++v)
+    for (int k = 0; k < 2; ++k) {
+      Vec3& p = poses[static_cast<std::size_t>(k)][v];
+      for (int c = 0; c < 2; ++c)
+        p[c] += 0.08 * std::sin(7 * flat.positions[v][1 - c] + 3 * k) + 0.004 * (random_unit(10 + 2 * k + c, v) - 0.5);
+    }
+  const auto least = [&](const std::vector<std::array<Index, 3>>& triangles, const std::vector<Vec3>& pose) {
+    double area = 1;
+    for (const auto& t : triangles) area = std::min(area, (pose[t[1]] - pose[t[0]]).cross(pose[t[2]] - pose[t[0]]).z());
+    return area;
+  };
+  const PoseDecimated coarse = decimated_together(poses, flat.triangles, 60);
+  EXPECT_LT(coarse.vertices.size(), 100u);
+  for (const auto& pose : poses) {
+    ASSERT_GT(least(flat.triangles, pose), 0);
+    EXPECT_GT(least(coarse.triangles, pose), 0);
+  }
+}
+
 TEST(PoseDecimate, VerticesThatAreToBeKeptAreKept) {
   const Mesh rest = bumpy_torus(40, 20);
   std::vector<Index> keep;
@@ -203,8 +226,27 @@ TEST(PoseDecimate, HostileMeshes) {
     EXPECT_EQ(faults(few, flat), std::vector<std::string>{}) << scale.transpose();
     EXPECT_EQ(euler_number(few), 0) << scale.transpose();
   }
+  // A tetrahedron without size has no normals that would forbid to lay it flat.
+  const std::vector<Vec3> point(4, Vec3(1, 2, 3));
+  EXPECT_EQ(decimated_together({{point}}, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}, 0).triangles.size(), 4u);
   const PoseDecimated none = decimated_together({{std::vector<Vec3>{}}}, {}, 10);
   EXPECT_TRUE(none.vertices.empty() && none.triangles.empty());
+}
+
+// Two sheets that share an inner vertex, and nothing else.
+TEST(PoseDecimate, WhatIsNotADiscStays) {
+  Mesh two = both(sheet(12), sheet(12));
+  for (auto& t : two.triangles)
+    for (Index& v : t)
+      if (v == 144 + 77) v = 77;
+  const PoseDecimated coarse = decimated_together({{two.positions}}, two.triangles, 12);
+  EXPECT_EQ(faults(coarse, two), std::vector<std::string>{});
+  EXPECT_TRUE(std::binary_search(coarse.vertices.begin(), coarse.vertices.end(), 77u));
+  for (const bool first : {true, false})
+    EXPECT_TRUE(std::any_of(coarse.triangles.begin(), coarse.triangles.end(), [&](const auto& t) {
+      return std::any_of(t.begin(), t.end(), [](Index v) { return v == 77; }) &&
+             std::all_of(t.begin(), t.end(), [&](Index v) { return v == 77 || (v < 144) == first; });
+    }));
 }
 
 TEST(PoseDecimate, StopsWhenTold) {
