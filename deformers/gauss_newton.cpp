@@ -16,35 +16,6 @@ std::span<double> span_of(Vector& x) {
   return {x.data(), static_cast<std::size_t>(x.size())};
 }
 
-/// Factorizes J'J with the smallest damping that makes the solve exact: the free motions of a part without anything
-/// fixed are null directions of J'J, which a damping of 1e-9 of the mean diagonal holds still without being felt
-/// elsewhere.
-bool factorize(const GaussNewtonModel& model, KeptFactor& kept, const Vector& g) {
-  model.hessian(kept.H);
-  const std::size_t n = kept.H.size() * static_cast<std::size_t>(kept.H.block);
-  double mean = 0;
-  for (Index j = 0; j < kept.H.size(); ++j)
-    for (int c = 0; c < kept.H.block; ++c) mean += kept.H.at(kept.H.offsets[j])[c * (kept.H.block + 1)];
-  mean /= static_cast<double>(n);
-
-  const Vector b = g.head(static_cast<Eigen::Index>(n));  // of the unknowns that the factor has
-  Vector x(b.size()), y(b.size());
-  for (double share = 1e-9; share < 1; share *= 1000) {
-    std::vector<double> damping(n);
-    for (std::size_t i = 0; i < n; ++i) damping[i] = share * mean * model.held[i % model.held.size()];
-    kept.usable = kept.cholesky.factorize(kept.H, damping);
-    if (!kept.usable) continue;
-    x = b;
-    kept.cholesky.solve(span_of(x));
-    if (!x.allFinite()) continue;
-    multiply(kept.H, span_of(x), span_of(y));
-    y += Eigen::Map<const Vector>(damping.data(), y.size()).cwiseProduct(x);
-    if ((y - b).norm() <= 1e-6 * b.norm()) return true;
-  }
-  kept.usable = false;
-  return false;
-}
-
 /// Halves the step until F does not rise; the trial is then x + scale * step. With a factor that is not of this x only
 /// the whole step is tried: where that rises, a new factor helps more than a short step. F is infinite where nothing
 /// went down.
@@ -73,6 +44,35 @@ bool converged(const GaussNewtonOptions& options, double F, double decrease, con
 
 }  // namespace
 
+/// The free motions of a part without anything fixed are null directions of J'J, which a damping of 1e-9 of the mean
+/// diagonal holds still without being felt elsewhere.
+bool make_factor(const GaussNewtonModel& model, KeptFactor& kept, std::span<const double> g) {
+  model.hessian(kept.H);
+  const std::size_t n = kept.H.size() * static_cast<std::size_t>(kept.H.block);
+  double mean = 0;
+  for (Index j = 0; j < kept.H.size(); ++j)
+    for (int c = 0; c < kept.H.block; ++c) mean += kept.H.at(kept.H.offsets[j])[c * (kept.H.block + 1)];
+  mean /= static_cast<double>(n);
+
+  // Of the unknowns that the factor has.
+  const Vector b = Eigen::Map<const Vector>(g.data(), static_cast<Eigen::Index>(n));
+  Vector x(b.size()), y(b.size());
+  for (double share = 1e-9; share < 1; share *= 1000) {
+    std::vector<double> damping(n);
+    for (std::size_t i = 0; i < n; ++i) damping[i] = share * mean * model.held[i % model.held.size()];
+    kept.usable = kept.cholesky.factorize(kept.H, damping);
+    if (!kept.usable) continue;
+    x = b;
+    kept.cholesky.solve(span_of(x));
+    if (!x.allFinite()) continue;
+    multiply(kept.H, span_of(x), span_of(y));
+    y += Eigen::Map<const Vector>(damping.data(), y.size()).cwiseProduct(x);
+    if ((y - b).norm() <= 1e-6 * b.norm()) return true;
+  }
+  kept.usable = false;
+  return false;
+}
+
 GaussNewtonResult gauss_newton(const GaussNewtonModel& model, KeptFactor& kept, const GaussNewtonOptions& options) {
   GaussNewtonResult result;
   const auto of_factor = static_cast<Eigen::Index>(kept.H.size()) * kept.H.block;
@@ -98,10 +98,10 @@ GaussNewtonResult gauss_newton(const GaussNewtonModel& model, KeptFactor& kept, 
 
   while (result.iterations < options.max_iterations) {
     model.gradient(span_of(g));
-    if (accepted && options.keep_factor) curvature.add(step, g - former_g);
+    if (accepted && !renew) curvature.add(step, g - former_g);
     accepted = false;
     if (renew) {
-      if (!factorize(model, kept, g)) {
+      if (!make_factor(model, kept, span_of(g))) {
         result.status = Status::Failed;
         result.message = "the linear system could not be solved to working precision";
         break;
@@ -144,7 +144,7 @@ GaussNewtonResult gauss_newton(const GaussNewtonModel& model, KeptFactor& kept, 
     // A factor costs about as much as ten steps with it: a new one pays when that many went by and progress is slow
     // still.
     const bool worn = ++steps_with_factor >= 10 && length > 0.7 * former_length;
-    renew = !options.keep_factor || worn || trial.scale < 1;
+    renew = !options.keep_factor || worn || trial.scale < 1 || decrease > options.far * (F + decrease);
     if (renew) curvature.clear();
     fresh = false;
     former_length = length;

@@ -4,6 +4,7 @@
 /// iterations (and solves) until progress slows, because a step with it costs a tenth of making it; limited-memory BFGS
 /// around it makes up for what it lacks. The limit is the same, since the gradient is always exact.
 
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -39,9 +40,10 @@ struct KeptFactor {
 
 struct GaussNewtonOptions {
   int max_iterations = 100;
-  double epsilon = 1e-6;               ///< of the three tests of eq. 12
-  double relative_decrease = 0;        ///< if positive: F must also fall by less than this share of itself
-  bool keep_factor = true;             ///< false: the plain method, a new factor in every iteration
+  double epsilon = 1e-6;         ///< of the three tests of eq. 12
+  double relative_decrease = 0;  ///< if positive: F must also fall by less than this share of itself
+  bool keep_factor = true;       ///< false: the plain method, a new factor in every iteration
+  double far = INFINITY;  ///< a step that lowered F by more than this share of it came from afar: a new factor follows
   std::function<bool()> on_iteration;  ///< after each accepted step; false stops
 };
 
@@ -51,6 +53,9 @@ struct GaussNewtonResult {
   int iterations = 0, factorizations = 0;
   double energy = 0;
 };
+
+/// Makes the factor of J'J at x, with the smallest damping that solves J'J s = b exactly; false where none does.
+[[nodiscard]] bool make_factor(const GaussNewtonModel& model, KeptFactor& kept, std::span<const double> b);
 
 /// `kept.H` has the pattern and `kept.cholesky` has analysed it.
 GaussNewtonResult gauss_newton(const GaussNewtonModel& model, KeptFactor& kept, const GaussNewtonOptions& options);

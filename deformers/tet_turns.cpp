@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "deformers/tet_solver.h"
+#include "engine/geometry/affine.h"
 #include "engine/geometry/check.h"
-#include "engine/geometry/rotation.h"
 
 namespace sinew {
 
@@ -27,14 +27,6 @@ Vec3 turn_of(const Mat3& R) {
 
 Vec3 mean(const std::vector<Vec3>& points) {
   return std::accumulate(points.begin(), points.end(), Vec3(0, 0, 0)) / static_cast<double>(points.size());
-}
-
-/// The rotation that takes `from` nearest to `to`, both about their means.
-Mat3 fitted_rotation(const std::vector<Vec3>& from, const std::vector<Vec3>& to) {
-  const Vec3 a = mean(from), b = mean(to);
-  Mat3 C = Mat3::Zero();
-  for (std::size_t i = 0; i < from.size(); ++i) C += (to[i] - b) * (from[i] - a).transpose();
-  return C.squaredNorm() > 0 ? nearest_rotation(C) : Mat3::Identity();
 }
 
 /// Whether points lie on more than a line, so that where they go fixes a rotation.
@@ -71,7 +63,7 @@ std::vector<Vec3> TetSolver::turns_to(std::span<const TetTarget> targets) const 
   for (std::size_t h = 0; h < targets.size(); ++h) {
     const TetHandle& handle = constraints_.handles[h];
     if (!fix_rotation(points_of(handle, rest_))) continue;
-    out[h] = turn_of(fitted_rotation(points_of(handle, x_), targets[h].positions));
+    out[h] = turn_of(rigid_fit(points_of(handle, x_), targets[h].positions).leftCols<3>());
     if (!targets[h].turn) continue;
     const bool known = from_rest_ || last_turns_[h].has_value();
     if (!known) continue;

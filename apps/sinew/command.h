@@ -47,6 +47,7 @@ std::function<int()> declare_info(Arguments& arguments);
 std::function<int()> declare_convert(Arguments& arguments);
 std::function<int()> declare_diff(Arguments& arguments);
 std::function<int()> declare_deform(Arguments& arguments);
+std::function<int()> declare_blend(Arguments& arguments);
 std::function<int()> declare_apply(Arguments& arguments);
 std::function<int()> declare_submit(Arguments& arguments);
 std::function<int()> declare_render(Arguments& arguments);

@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "apps/sinew/command.h"
+#include "apps/sinew/deform.h"
 #include "apps/sinew/deform_frames.h"
 #include "apps/sinew/files.h"
 #include "apps/sinew/progress.h"
@@ -21,18 +22,12 @@ namespace sinew::app {
 
 namespace {
 
+using Options = DeformOptions;
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
-
-struct Options {
-  std::string input, from, edit, report, pose, frames, jobs, task;
-  std::vector<std::string> settings;
-  Output out;
-  bool strict = false;
-};
 
 document::Project edit_of(const Options& options) {
   document::Project project = document::read_edit(options.edit);
@@ -114,10 +109,12 @@ int run_frames(const Options& options, const document::Project& project, Clock::
   return status;
 }
 
-int run(const Options& options) {
+}  // namespace
+
+int run_deform(const DeformOptions& options, const std::function<document::Project()>& edit) {
   const Clock::time_point begin = Clock::now();
   check_outputs(options);
-  const document::Project project = edit_of(options);
+  const document::Project project = edit();
   if (many_frames(options, project)) return run_frames(options, project, begin);
   check_output(options.out);
   document::Report report;
@@ -141,8 +138,6 @@ int run(const Options& options) {
   }
   return status;
 }
-
-}  // namespace
 
 std::function<int()> declare_deform(Arguments& arguments) {
   const auto options = std::make_shared<Options>();
@@ -168,7 +163,7 @@ std::function<int()> declare_deform(Arguments& arguments) {
   arguments.flag("--force", options->out.force, "Replace outputs that exist");
   arguments.option("--from", "EXT", options->from, "Format of standard input, by an extension");
   arguments.option("--to", "EXT", options->out.as, "Format of standard output, by an extension");
-  return [options] { return run(*options); };
+  return [options] { return run_deform(*options, [&] { return edit_of(*options); }); };
 }
 
 }  // namespace sinew::app

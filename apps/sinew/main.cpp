@@ -24,6 +24,10 @@ constexpr Command commands[] = {
      "  sinew deform bun.conf --edit ears.json -o bent/           (one file a scan)\n"
      "  sinew deform plane.obj --edit lift.json -o bent.obj --set nodes=300 --report r.json --pose lift.pose",
      declare_deform},
+    {"blend", "Makes the shape between poses of a mesh, or beyond them",
+     "  sinew blend stand.obj gallop.obj -w 0.5 -o between.obj\n"
+     "  sinew blend stand.obj poses/ -w 0.3,0,1.2 -o mixed.obj --report r.json",
+     declare_blend},
     {"apply", "Bends any other file of the same space with a solved edit, without solving",
      "  sinew deform coarse.ply --edit lift.json -o bent.ply --pose lift.pose\n"
      "  sinew apply lift.pose dense.ply -o dense-bent.ply\n"

@@ -87,6 +87,18 @@ static void write_value(JsonWriter& out, const Shared<T>& shared) {
   write_value(out, shared.get());
 }
 
+static void read_value(const JsonFile& file, const Json& json, std::optional<double>& value) {
+  value.reset();
+  if (json.type != Json::Type::Null) read_value(file, json, value.emplace());
+}
+
+static void write_value(JsonWriter& out, const std::optional<double>& value) {
+  if (value)
+    write_value(out, *value);
+  else
+    out.raw("null");
+}
+
 template <class A>
 static void fields(A& a, Is<Ball> auto& ball) {
   a.required("center", ball.center);
@@ -340,6 +352,7 @@ static void fields(A& a, Is<Layer> auto& layer) {
   a.optional("rigid", layer.rigid);
   a.optional("stiffness", layer.stiffness);
   a.optional("examples", layer.examples);
+  a.optional("example_weights", layer.example_weights);
   a.optional("keys", layer.keys);
   a.optional("start", layer.start);
   a.place(layer.place);

@@ -191,12 +191,17 @@ struct Layer {
   std::vector<HandleEdit> handles;
   std::vector<Selection> rigid;
   std::vector<Stiffness> stiffness;
-  std::vector<std::string> examples;  ///< paths, as SelectLabels::path
+  std::vector<std::string> examples;  ///< paths, as SelectLabels::path; each one pose or several (poses.h)
+  /// Of the first examples, how much of each there is to be; null, or none given: the solver finds it.
+  std::vector<std::optional<double>> example_weights;
   std::vector<Key> keys;
   Shared<Affine> start;  ///< the pose to start the solve from (Deformer::pose); empty: rest
   Place place;
   bool operator==(const Layer&) const = default;
 };
+
+/// Whether what a method makes its structure of is the same in both.
+bool same_structure(const Layer& a, const Layer& b);
 
 struct Project {
   std::vector<std::string> inputs;  ///< paths, as SelectLabels::path

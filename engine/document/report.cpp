@@ -72,7 +72,7 @@ void write_layer(JsonWriter& out, const LayerReport& layer) {
   member(out, "max", layer.handle_max);
   member(out, "rms", layer.handle_rms);
   out.end_object();
-  member(out, "example_weights", layer.example_weights);
+  member(out, "example_weights", layer.solve.example_weights);
   write_quality(out, layer.quality);
   write_seconds(out, layer);
   out.end_object();

@@ -26,7 +26,6 @@ struct LayerReport {
   Figures counts;                  ///< of the deformer's structure
   std::vector<std::string> notes;  ///< what was left out in making it, one sentence each
   double handle_max = 0, handle_rms = 0;
-  std::vector<double> example_weights;
   Quality quality;
   double build = 0;  ///< making the deformer: its structure, and binding the points for the first time
   double bind = 0;   ///< binding all points once more

@@ -62,6 +62,7 @@ void refuse_unknown_parts(const Layer& layer, const Method& method) {
       {"rigid", method.parts.rigid, layer.rigid.size()},
       {"stiffness", method.parts.stiffness, layer.stiffness.size()},
       {"examples", method.parts.examples, layer.examples.size()},
+      {"example_weights", method.parts.examples, layer.example_weights.size()},
       {"tets", method.parts.solid, layer.tets.empty() ? 0 : 1},
       {"markers", method.parts.places, layer.markers ? 1 : 0},
       {"places", method.parts.places, count_places(layer)}};
@@ -76,6 +77,11 @@ void refuse_unknown_parts(const Layer& layer, const Method& method) {
 InputError place_error(const Place& place, const std::string& what, const std::string& expected,
                        const std::string& found) {
   return file_error(place.text.empty() ? what : place.text, expected, found);
+}
+
+bool same_structure(const Layer& a, const Layer& b) {
+  return a.method == b.method && a.settings == b.settings && a.nodes == b.nodes && a.path == b.path &&
+         a.cuts == b.cuts && a.tets == b.tets && a.examples == b.examples && a.frame == b.frame;
 }
 
 const Method& method_of(const Layer& layer, std::span<const Method> methods) {

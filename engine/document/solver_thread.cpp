@@ -10,9 +10,7 @@ namespace {
 /// Whether building the deformer of layer `index` is still worth its time for `next`.
 bool same_build(const SolveRequest& now, const SolveRequest& next, std::size_t index) {
   if (now.input != next.input || index >= next.layers.size()) return false;
-  const Layer &a = now.layers[index], &b = next.layers[index];
-  return b.on && a.method == b.method && a.settings == b.settings && a.nodes == b.nodes && a.path == b.path &&
-         a.cuts == b.cuts && a.frame == b.frame && a.tets == b.tets;
+  return next.layers[index].on && same_structure(now.layers[index], next.layers[index]);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <numeric>
 
+#include "engine/document/examples.h"
 #include "engine/document/keys.h"
 #include "engine/document/pose_blend.h"
 #include "engine/document/settings.h"
@@ -21,12 +22,8 @@ double seconds_since(Clock::time_point begin) {
 }
 
 bool same_constraints(const Constraints& a, const Constraints& b) {
-  return a.fixed == b.fixed && a.handles == b.handles && a.rigid == b.rigid && a.stiffness == b.stiffness;
-}
-
-bool same_structure(const Layer& a, const Layer& b) {
-  return a.method == b.method && a.settings == b.settings && a.nodes == b.nodes && a.path == b.path &&
-         a.cuts == b.cuts && a.tets == b.tets && a.frame == b.frame;
+  return a.fixed == b.fixed && a.handles == b.handles && a.rigid == b.rigid && a.stiffness == b.stiffness &&
+         a.example_weights == b.example_weights;
 }
 
 bool names_targets(const Layer& layer) {
@@ -233,10 +230,16 @@ bool Workspace::make(std::size_t i, const std::shared_ptr<const Shape>& base) {
   }
   const std::vector<Cut> cuts = cuts_of(layer, base->origin);
   const std::shared_ptr<const Shape> solid = layer.tets.empty() ? nullptr : solid_of(layer, base->origin);
-  std::shared_ptr<Deformer> deformer =
-      method.make(base, settings_of(layer, method), {points, layer.path.has_value(), cuts, solid}, progress);
+  StructureWishes wishes{points, layer.path.has_value(), cuts, solid, {}};
+  std::vector<std::string> names;
+  for (const io::NamedPose& example : examples_of(layer, *base, progress)) {
+    wishes.examples.push_back(example.shape);
+    names.push_back(example.name);
+  }
+  std::shared_ptr<Deformer> deformer = method.make(base, settings_of(layer, method), wishes, progress);
   if (deformer == nullptr) return false;
   install(kept, std::move(deformer));
+  kept.examples = std::move(names);
   kept.layer = layer;
   kept.base = kept.followed = base;
   kept.build_seconds = seconds_since(begin);
@@ -341,7 +344,7 @@ std::optional<Workspace::Wanted> Workspace::wanted(std::size_t i, int frame, con
     rest_second = rest_of(i, second.frame);
     if (rest_first == nullptr || rest_second == nullptr) return std::nullopt;
   }
-  Wanted out{{kept.marked->fixed, {}, kept.marked->rigid, kept.marked->stiffness}, {}, {}};
+  Wanted out{{kept.marked->fixed, {}, kept.marked->rigid, kept.marked->stiffness, layer.example_weights}, {}, {}};
   for (std::size_t h = 0; h < layer.handles.size(); ++h) {
     const std::vector<Index>& points = kept.marked->handles[h];
     std::vector<Vec3> places = handle_places(layer.handles[h], rest.origin);
@@ -410,6 +413,7 @@ LayerResult Workspace::result(std::size_t i, const Solved& solved) {
   out.motions = solved.motions;
   out.centres = solved.centres;
   out.map_energy = solved.map_energy;
+  out.examples = kept.examples;
   out.solved = true;
   out.build_seconds = kept.build_seconds;
   return out;

@@ -35,6 +35,7 @@ struct LayerResult {
   std::vector<Motion> motions;  ///< of the handles at the frame, as a key there would have them
   std::vector<Vec3> centres;    ///< means of the handles' points at the frame, where the layer starts from
   std::shared_ptr<const std::vector<double>> map_energy;  ///< Deformer::map_energy of the pose
+  std::vector<std::string> examples;                      ///< names, in the order of the report's example_weights
   bool solved = false;       ///< false: an earlier pose is carried along, because a layer below is being dragged
   double build_seconds = 0;  ///< making the deformer: its structure and the weights of the points
 };
@@ -99,6 +100,7 @@ class Workspace {
     Layer layer;                        ///< as it was last solved
     std::shared_ptr<const Shape> base;  ///< what the deformer was made for
     std::shared_ptr<Deformer> deformer;
+    std::vector<std::string> examples;  ///< their names
     double build_seconds = 0;
     std::optional<Layer> fitted;             ///< the edit that the structure was refined for
     bool grown = false;                      ///< and it was

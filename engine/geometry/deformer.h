@@ -20,10 +20,10 @@ namespace sinew {
 struct Handle {
   std::vector<Index> points;
   std::vector<Vec3> targets;
-  std::vector<Vec3> places;  ///< of the rest shape's space, inside or outside of it: markers, joints
+  std::vector<Vec3> places = {};  ///< of the rest shape's space, inside or outside of it: markers, joints
   /// How far the handle is turned, where the user turned it: axis times radians, of any length, so that a twist by more
   /// than half a turn is known from a smaller one. The targets are where it ends.
-  std::optional<Vec3> turn;
+  std::optional<Vec3> turn = {};
 
   bool operator==(const Handle&) const = default;
 };
@@ -37,10 +37,13 @@ struct Stiff {
 
 /// What an edit asks for. Indices are points of the shape that the deformer was made for.
 struct Constraints {
-  std::vector<Index> fixed;  ///< points that stay exactly where they are
-  std::vector<Handle> handles;
-  std::vector<std::vector<Index>> rigid;  ///< groups that turn as one, each of one piece or of many
-  std::vector<Stiff> stiffness;
+  std::vector<Index> fixed = {};  ///< points that stay exactly where they are
+  std::vector<Handle> handles = {};
+  std::vector<std::vector<Index>> rigid = {};  ///< groups that turn as one, each of one piece or of many
+  std::vector<Stiff> stiffness = {};
+  /// For the first examples, how much of each there is to be (0 the rest shape, 1 the example); where there is no
+  /// number, or none is given, the solver finds it.
+  std::vector<std::optional<double>> example_weights = {};
 };
 
 enum class Status { Converged, MaxIterations, Stalled, Stopped, Failed };
@@ -58,8 +61,9 @@ struct SolveReport {
   Figures energy;         ///< total first, then its terms, weighted, in normalised coordinates
   double handle_rms = 0;  ///< distance of handle points from their targets, in units of the diagonal
   double handle_max = 0;
-  double prefactor_seconds = 0;  ///< ordering, symbolic analysis and constant parts, when handles came or went
-  double solve_seconds = 0;      ///< all iterations
+  std::vector<double> example_weights;  ///< as they are now, one for each example
+  double prefactor_seconds = 0;         ///< ordering, symbolic analysis and constant parts, when handles came or went
+  double solve_seconds = 0;             ///< all iterations
 };
 
 struct SolveOptions {
@@ -163,6 +167,8 @@ struct StructureWishes {
   bool chain = false;
   std::span<const Cut> cuts;
   std::shared_ptr<const Shape> solid;  ///< tets to use instead of making some, relative to the shape's origin
+  /// Poses of the same points and faces, each with its own origin.
+  std::vector<std::shared_ptr<const Shape>> examples;
 };
 
 /// A method as the application hands it to document: one row of the table in deformers/methods.h.

@@ -169,4 +169,24 @@ Quality quality_of(const Shape& rest, std::span<const Vec3> bent) {
   return quality;
 }
 
+std::string difference_of_faces(const Shape& shape, const Shape& other) {
+  const auto corners = [](std::span<const Index> face) {
+    std::string out;
+    for (std::size_t k = 0; k < face.size() && k < 8; ++k) out += (k > 0 ? " " : "") + std::to_string(face[k]);
+    return out + (face.size() > 8 ? " ..." : "");
+  };
+  if (shape.size() != other.size())
+    return "expected " + std::to_string(shape.size()) + " points, found " + std::to_string(other.size());
+  const std::size_t a = shape.faces.size(), b = other.faces.size();
+  for (std::size_t f = 0; f < std::min(a, b); ++f)
+    if (!std::ranges::equal(shape.faces[f], other.faces[f]))
+      return "expected face " + std::to_string(f) + " of " + std::to_string(a) + " to have corners " +
+             corners(shape.faces[f]) + ", found " + corners(other.faces[f]) + " (of " + std::to_string(b) + " faces)";
+  if (a != b) return "expected " + std::to_string(a) + " faces, found " + std::to_string(b);
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    if (shape.positions[i].allFinite() && !other.positions[i].allFinite())
+      return "expected point " + std::to_string(i) + " to be finite, found one that is not";
+  return {};
+}
+
 }  // namespace sinew

@@ -39,4 +39,8 @@ struct Quality {
 };
 Quality quality_of(const Shape& rest, std::span<const Vec3> bent);
 
+/// In what `other` does not correspond to `shape`, as the rest of a sentence: the first face with other corners,
+/// another number of points or faces, a point that is not finite where the shape's is. Empty where it corresponds.
+std::string difference_of_faces(const Shape& shape, const Shape& other);
+
 }  // namespace sinew

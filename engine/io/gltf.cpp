@@ -44,4 +44,15 @@ Sequence open_gltf(std::shared_ptr<const ByteSource> bytes, const ReadOptions&) 
   return sequence;
 }
 
+std::vector<std::shared_ptr<const Shape>> read_gltf_targets(const std::string& path) {
+  const GltfMesh mesh(std::make_unique<GltfDocument>(path, load_bytes(path)));
+  std::vector<std::shared_ptr<const Shape>> out;
+  for (std::size_t k = 0; k < mesh.targets(); ++k) {
+    auto shape = std::make_shared<Shape>(mesh.target(k));
+    set_origin(*shape);
+    out.push_back(std::move(shape));
+  }
+  return out;
+}
+
 }  // namespace sinew::io

@@ -29,6 +29,9 @@ namespace sinew::io {
 Shape read_gltf(const std::string& path, std::vector<std::byte> bytes, const ReadOptions& options);
 Sequence open_gltf(std::shared_ptr<const ByteSource> bytes, const ReadOptions& options);
 
+/// The base mesh with each morph target alone, in the target's own right; none where the file has none.
+std::vector<std::shared_ptr<const Shape>> read_gltf_targets(const std::string& path);
+
 std::vector<std::byte> write_gltf(const std::string& path, const Shape& shape, WriteReport& report);
 std::vector<std::byte> write_glb(const std::string& path, const Shape& shape, WriteReport& report);
 std::unique_ptr<FrameWriter> create_gltf(const std::string& path, const FrameWriterOptions& options);

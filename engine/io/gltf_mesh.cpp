@@ -255,6 +255,16 @@ void GltfMesh::note_rest(std::size_t channels) {
 }
 
 Shape GltfMesh::shape(std::size_t i) const {
+  return shape_at(std::span(weights_).subspan(i * targets_, targets_));
+}
+
+Shape GltfMesh::target(std::size_t k) const {
+  std::vector<double> weights(targets_, 0.0);
+  weights[k] = 1;
+  return shape_at(weights);
+}
+
+Shape GltfMesh::shape_at(std::span<const double> weights) const {
   const bool moved = !world_.isIdentity(0);
   Shape shape;
   shape.positions.resize(points_);
@@ -264,7 +274,7 @@ Shape GltfMesh::shape(std::size_t i) const {
   for (const Block& block : blocks_) {
     std::vector<double> x = document_->numbers(block.position, 3);
     for (std::size_t k = 0; k < targets_; ++k) {
-      const double w = weights_[i * targets_ + k];
+      const double w = weights[k];
       if (w == 0 || !block.targets[k]) continue;
       const std::vector<double> offsets = document_->numbers(*block.targets[k], 3);
       for (std::size_t c = 0; c < x.size(); ++c) x[c] += w * offsets[c];

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <map>
 #include <memory>
+#include <span>
 
 #include "engine/geometry/shape.h"
 #include "engine/io/gltf_document.h"
@@ -19,6 +20,9 @@ class GltfMesh {
   double rate() const { return rate_; }
   /// Frame number i in order; without an origin and a content.
   Shape shape(std::size_t i) const;
+  std::size_t targets() const { return targets_; }
+  /// base + target k alone; as shape().
+  Shape target(std::size_t k) const;
 
  private:
   /// Vertices that one or more primitives use.
@@ -27,6 +31,7 @@ class GltfMesh {
     std::vector<std::optional<JsonView>> targets;  ///< accessors of offsets, where a target has them
     std::size_t first = 0, count = 0;
   };
+  Shape shape_at(std::span<const double> weights) const;
   void find_node();
   void read_primitive(const JsonView& primitive);
   std::size_t block_of(const JsonView& primitive);

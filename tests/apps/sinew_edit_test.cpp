@@ -20,7 +20,7 @@ std::vector<std::pair<std::string, std::string>> mistakes_of_meaning() {
   const std::string move = ", \"move\": [0, 0, 1]}";
   return {
       {"{\"sinew\": 1, \"layers\": [@{\"method\": \"bone\"}]}",
-       "expected a method, one of \"graph\", \"tet\", found \"bone\""},
+       "expected a method, one of \"graph\", \"tet\", \"shell\", found \"bone\""},
       {layer_with("\"settings\": {\"nodes\": @-5}"),
        "expected a whole number from 1 to 100000 for \"nodes\", found -5"},
       {layer_with("\"settings\": {\"nodes\": @2.5}"),

@@ -1,0 +1,28 @@
+#include "engine/document/examples.h"
+
+#include "engine/document/settings.h"
+#include "engine/geometry/error.h"
+#include "engine/geometry/topology.h"
+
+namespace sinew::document {
+
+std::vector<io::NamedPose> examples_of(const Layer& layer, const Shape& rest,
+                                       const std::function<bool(double)>& progress) {
+  std::vector<io::NamedPose> out;
+  for (const std::string& path : layer.examples) {
+    if (progress && !progress(0)) return out;
+    for (io::NamedPose& pose : io::read_poses(path)) {
+      if (const std::string difference = difference_of_faces(rest, *pose.shape); !difference.empty())
+        throw InputError(pose.path + ": " + difference +
+                         ": an example has the points and faces of the shape it is for");
+      out.push_back(std::move(pose));
+    }
+  }
+  if (layer.example_weights.size() > out.size())
+    throw place_error(layer.place, "layer",
+                      "at most " + std::to_string(out.size()) + " \"example_weights\", one an example",
+                      std::to_string(layer.example_weights.size()));
+  return out;
+}
+
+}  // namespace sinew::document

@@ -1,0 +1,18 @@
+#pragma once
+/// The example poses of a layer, read and checked against its rest shape.
+
+#include <functional>
+#include <vector>
+
+#include "engine/document/project.h"
+#include "engine/io/poses.h"
+
+namespace sinew::document {
+
+/// Poses of all paths of Layer::examples, in their order. Throws InputError: a file that can't be read, one that does
+/// not correspond to `rest` (path, first differing face, both counts), fewer poses than Layer::example_weights.
+/// `progress` as of Method::make; where it says false, the list ends early.
+std::vector<io::NamedPose> examples_of(const Layer& layer, const Shape& rest,
+                                       const std::function<bool(double)>& progress);
+
+}  // namespace sinew::document
