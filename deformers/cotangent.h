@@ -7,7 +7,7 @@
 ///   grad  of a triangle's linear function; div = grad' weighted by areas: div grad = L
 ///
 /// Triangles that are degenerate get longer edges until each is at least 1/100 of the mean edge shorter than the other
-/// two together [Sharp and Crane, "A Laplacian for Nonmanifold Triangle Meshes", 2020, section 4.1, a triangle at a
+/// two together [Sharp and Crane, "A Laplacian for Nonmanifold Triangle Meshes", 2020, a triangle at a
 /// time]; so any triangles have weights, L is positive semidefinite, and M > 0 where there are triangles.
 
 #include <array>
@@ -39,9 +39,9 @@ CotangentLaplacian cotangent_laplacian(std::span<const Vec3> positions,
 /// L x.
 std::vector<Vec3> multiply(const CotangentLaplacian& L, std::span<const Vec3> x);
 
-/// div(S grad x): with one linear map for each of L's triangles. With all S = identity it is L x, bit for bit apart
-/// from rounding; the least squares of |grad y - S grad x|^2 over the area solves L y = div(S grad x) [Sumner and
-/// Popovic 2004; Botsch, Sumner, Pauly and Gross 2006, section 3].
+/// div(S grad x): with one linear map for each of L's triangles. With all S = identity it is L x; the least squares of
+/// |grad y - S grad x|^2 over the area solves L y = div(S grad x) [Sumner and Popovic 2004; Botsch, Sumner, Pauly and
+/// Gross 2006].
 std::vector<Vec3> divergence(const CotangentLaplacian& L, std::span<const Mat3> S, std::span<const Vec3> x);
 
 }  // namespace sinew
