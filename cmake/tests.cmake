@@ -21,7 +21,7 @@ sinew_tests(test_deformers tests/deformers/*.cpp sinew_deformers sinew_io sinew_
 sinew_tests(test_samples tests/apps/samples*_test.cpp sinew_samples sinew_document)
 sinew_tests(test_editor_core tests/apps/editor_core*_test.cpp sinew_editor_core sinew_samples)
 add_dependencies(test_editor_core sinew-tets)
-sinew_tests(test_sinew tests/apps/sinew_*test.cpp sinew_document sinew_deformers sinew_gpu)
+sinew_tests(test_sinew tests/apps/sinew_*test.cpp sinew_document sinew_deformers sinew_gpu sinew_samples)
 add_dependencies(test_sinew sinew sinew-tets)
 sinew_tests(test_pictures tests/apps/pictures_test.cpp sinew_gpu)
 add_dependencies(test_pictures sinew sinew-samples sinew-tets)
@@ -37,7 +37,7 @@ set_tests_properties(gpu PROPERTIES LABELS gpu TIMEOUT 600)
 
 # The window, used by mouse and keys on a screen of its own; alone, because it waits for what a person would see.
 if(SINEW_EDITOR)
-  foreach(what story time splats large storm)
+  foreach(what story time splats motion cancel large storm)
     add_test(NAME editor_${what} COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_test.sh $<TARGET_FILE_DIR:sinew-editor> ${what})
     set_tests_properties(editor_${what} PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)
   endforeach()

@@ -9,13 +9,9 @@
 
 namespace sinew::editor {
 
-namespace {
-
-double now() {
+double seconds_now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-
-}  // namespace
 
 std::string sentence_of_failure(const std::function<void()>& work) {
   try {
@@ -37,7 +33,7 @@ void Background::start(std::string what, bool can_cancel, Work work) {
   CHECK(!busy(), what_, what);
   what_ = std::move(what);
   can_cancel_ = can_cancel;
-  started_ = now();
+  started_ = seconds_now();
   fraction_ = -1;
   stop_ = false;
   thread_ = std::thread([this, work = std::move(work)] {
@@ -45,7 +41,7 @@ void Background::start(std::string what, bool can_cancel, Work work) {
     const Tell tell = [&](double fraction) {
       fraction_ = fraction;
       // Waking a window for each thousandth would cost more than the work.
-      if (const double time = now(); wake_ && time - told > 0.05) {
+      if (const double time = seconds_now(); wake_ && time - told > 0.05) {
         told = time;
         wake_();
       }
@@ -73,7 +69,7 @@ std::optional<Background::Outcome> Background::take() {
 }
 
 double Background::seconds() const {
-  return now() - started_;
+  return seconds_now() - started_;
 }
 
 }  // namespace sinew::editor

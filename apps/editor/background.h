@@ -16,6 +16,9 @@ namespace sinew::editor {
 /// Says 0..1 (below 0: unknown); false: stop as soon as can be, by returning or by throwing io::Cancelled.
 using Tell = std::function<bool(double)>;
 
+/// Of a clock that never goes back.
+double seconds_now();
+
 /// What went wrong in `work`, as a sentence; empty where nothing did. With the solver's thread the one place of the
 /// editor where exceptions end.
 std::string sentence_of_failure(const std::function<void()>& work);

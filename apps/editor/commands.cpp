@@ -35,6 +35,9 @@ bool in_run(const Context& c) {
 bool has_cut(const Context& c) {
   return c.session.layer() != nullptr && !c.session.layer()->cuts.empty();
 }
+bool driven(const Context& c) {
+  return c.session.layer() != nullptr && c.session.layer()->markers.has_value();
+}
 bool layered(const Context& c) {
   return c.session.layer() != nullptr;
 }
@@ -130,8 +133,8 @@ bool has_tool(const Context& c) {
 
 using C = Context;
 const std::array table{
-    Command{"file.open", "Open...", "File", "Ctrl+O", "Open a shape or an edit.", always,
-            [](C& c) { c.request(Request::Open); }},
+    Command{"file.open", "Open...", "File", "Ctrl+O", "Open a shape, an edit, or a motion that is to drive a solid.",
+            always, [](C& c) { c.request(Request::Open); }},
     Command{"file.open_run", "Open all frames", "File", "", "Open all numbered files that this one is one of.", in_run,
             [](C& c) { c.session.open(pattern_of_run(c.session.input_path())); }},
     Command{"file.save", "Save edit", "File", "Ctrl+S", "Write the edit to its file.", open, save, nullptr, true},
@@ -224,6 +227,8 @@ const std::array table{
             [](const C& c) { return layered(c) && c.session.layer()->on; }},
     Command{"layer.remove_cut", "Remove last cut", "Layer", "", "Let influence pass again where it was cut last.",
             has_cut, [](C& c) { c.session.remove_cut(); }},
+    Command{"layer.remove_motion", "Remove motion", "Layer", "", "Let no markers drive the chosen layer any more.",
+            driven, [](C& c) { c.session.remove_markers(); }},
     Command{"layer.raise", "Raise layer", "Layer", "", "Let the chosen layer work after the one above it.", layered,
             [](C& c) { c.session.move_layer(c.session.chosen_layer(), 1); }},
     Command{"layer.lower", "Lower layer", "Layer", "", "Let the chosen layer work before the one below it.", layered,
@@ -290,6 +295,8 @@ const std::array table{
             [](C& c) { c.view.show_graph = !c.view.show_graph; }, [](const C& c) { return c.view.show_graph; }},
     Command{"view.cut_tets", "Cut tets open", "View", "", "Show the inside of the structure of a solid.", solid_shown,
             [](C& c) { c.view.cut_tets = !c.view.cut_tets; }, [](const C& c) { return c.view.cut_tets; }},
+    Command{"view.markers", "Markers", "View", "", "Show the markers and bones of a motion.", always,
+            [](C& c) { c.view.show_markers = !c.view.show_markers; }, [](const C& c) { return c.view.show_markers; }},
     Command{"view.rest", "Rest shape", "View", "", "Show a ghost of the shape at rest.", always,
             [](C& c) { c.view.show_rest = !c.view.show_rest; }, [](const C& c) { return c.view.show_rest; }},
     Command{"view.ground", "Ground", "View", "", "Show the ground grid.", always,

@@ -268,6 +268,7 @@ void Editor::draw_scene(bool moving) {
   Bounds bounds = session_.rest_bounds();
   if (session_.has_input())
     for (const HandleView& handle : session_.handles()) bounds.add(handle.target);
+  for (const document::Markers::Picture& picture : session_.marker_pictures()) picture.add_to(bounds);
   gpu::Camera& camera = view_.camera;
   gpu::fit_depth(camera, bounds);
   const gpu::Scene scene = stage_.scene(session_, view_, theme(), count);

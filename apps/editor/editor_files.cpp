@@ -6,6 +6,7 @@
 #include "engine/gpu/offscreen.h"
 #include "engine/gpu/png.h"
 #include "engine/io/io.h"
+#include "engine/io/motion.h"
 
 namespace sinew::editor {
 
@@ -17,6 +18,9 @@ std::vector<std::string> extensions(bool written) {
   std::vector<std::string> out;
   for (const io::Format& format : io::formats())
     if (!written || format.write != nullptr) out.insert(out.end(), format.extensions.begin(), format.extensions.end());
+  if (!written)
+    for (const io::MotionFormat& format : io::motion_formats())
+      if (std::find(out.begin(), out.end(), format.extension) == out.end()) out.push_back(format.extension);
   if (!written) out.emplace_back("json");
   return out;
 }
@@ -27,8 +31,9 @@ std::string beside(const std::string& path, const std::string& suffix, const std
   return (from.parent_path() / (from.stem().string() + suffix + extension)).string();
 }
 
-bool is_edit(const std::string& path) {
-  return fs::path(path).extension() == ".json";
+/// What goes onto the shape that is open, in place of taking its place.
+bool goes_on_top(const std::string& path) {
+  return fs::path(path).extension() == ".json" || io::is_motion(path);
 }
 
 }  // namespace
@@ -70,7 +75,7 @@ void Editor::open(const std::string& path) {
     view_.manipulation.reset();
     session_.open(path);
   };
-  if (session_.dirty() && !is_edit(path))
+  if (session_.dirty() && !goes_on_top(path))
     ui_.ask = {"The edit is not saved. Open " + fs::path(path).filename().string() + " without saving it?",
                "Open without saving", open_it};
   else

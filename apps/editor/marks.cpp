@@ -246,6 +246,10 @@ Layer without_handle(const Layer& layer, std::size_t handle) {
   return out;
 }
 
+void forget_starts(document::Project& project, std::size_t from) {
+  for (std::size_t i = from; i < project.layers.size(); ++i) project.layers[i].start = {};
+}
+
 Layer with_pivots(const Layer& layer, std::span<const Vec3> centres, const Vec3& origin) {
   CHECK(centres.size() == layer.handles.size(), centres.size(), layer.handles.size());
   Layer out = layer;

@@ -76,6 +76,10 @@ document::Motion wound(const document::Motion& motion, const Vec3& turn, const V
 /// `tolerance`. Same sizes, at least one.
 document::Motion rigid_fit(std::span<const Vec3> from, std::span<const Vec3> to, double tolerance, const Vec3& origin);
 
+/// Layers from `from` on start from rest: the pose that a layer starts from holds only for the structure that it was
+/// found with, and that follows from the layer's own settings and from all below it.
+void forget_starts(document::Project& project, std::size_t from);
+
 /// Points of the input after the first layers of an answer: all results whose `layer` is below `end`. indices: which.
 std::vector<Vec3> bent(const Shape& input, std::span<const document::LayerResult> layers, std::size_t end,
                        std::span<const Index> indices);

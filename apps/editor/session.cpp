@@ -32,6 +32,10 @@ Session::~Session() {
 Changed Session::poll() {
   take_background();
   while (std::optional<document::SolveAnswer> answer = solver_->answer()) take_answer(std::move(*answer));
+  if (const bool now = preparing(); now != preparing_since_.has_value()) {
+    preparing_since_ = now ? std::optional(seconds_now()) : std::nullopt;
+    changed_.project = true;
+  }
   advance();
   start_waiting();
   measure();

@@ -13,6 +13,7 @@
 /// brought it, and so does the saved file. The same holds after undo and redo.
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@
 #include "apps/editor/point_set.h"
 #include "apps/editor/repeatable.h"
 #include "engine/document/history.h"
+#include "engine/document/markers.h"
 #include "engine/document/solver_thread.h"
 #include "engine/geometry/bounds.h"
 
@@ -76,8 +78,9 @@ class Session {
 
   // Files
 
-  /// Opens a shape, or an EDIT.json together with its "inputs" (an edit without inputs is laid on the present shape).
-  /// What is open stays until the new one is there, and stays if it can't be read (a notice). Replaces a running open.
+  /// Opens a shape, or an EDIT.json together with its "inputs" (an edit without inputs is laid on the present shape),
+  /// or a motion (io::is_motion), which becomes the markers of the chosen layer: one step of history. What is open
+  /// stays until the new one is there, and stays if it can't be read (a notice). Replaces a running open.
   void open(const std::string& path);
   /// Shows a shape that is already there, under a name.
   void adopt(std::shared_ptr<const Shape> shape, const std::string& path, document::Project project = {});
@@ -99,7 +102,7 @@ class Session {
   bool dirty() const { return dirty_; }                           ///< differs from what is on the disk
   const std::vector<std::string>& lost() const { return lost_; }  ///< what the last export's format could not hold
 
-  // Time: a still has one frame
+  // Time: a still has one frame, or those of the motion that drives a layer
 
   std::span<const int> frames() const {
     return sequence_ ? std::span<const int>(sequence_->frames) : std::span<const int>();
@@ -127,6 +130,15 @@ class Session {
   void delete_key(int frame);
   void move_key(int frame, int to);
   void set_interpolation(int frame, document::Interpolation interpolation);
+
+  // Motion capture: markers of layers, by open()
+
+  void set_markers(const document::MarkersEdit& edit);  ///< of the chosen layer, where it has some
+  void remove_markers();
+  /// Of the chosen layer's newest answer; null where there are none.
+  const document::Markers* markers() const;
+  /// Of all layers, where they are at frame(); coordinates relative to the input's origin.
+  std::vector<document::Markers::Picture> marker_pictures() const;
 
   // What is shown
   // ------------------------------------------------------------------------------------------------------
@@ -256,6 +268,12 @@ class Session {
     bool force = false;
   };
 
+  std::optional<document::Layer> layer_to_drive(const std::string& path);
+  void open_motion(const std::string& path);
+  void take_motion(const document::Markers& markers);
+  void retime();
+  bool preparing() const;
+  void cancel_preparing();
   void show_frame(document::SolveAnswer answer);
   void advance();
   bool keyed() const;
@@ -293,7 +311,10 @@ class Session {
   std::function<void()> wake_;
 
   std::shared_ptr<const Shape> input_;
-  std::shared_ptr<const Sequence> sequence_;  ///< all frames; input_ is one of them
+  std::shared_ptr<const Sequence> source_;               ///< as the file has it
+  std::shared_ptr<const Sequence> sequence_;             ///< all frames, a motion's included; input_ is one of them
+  std::map<std::string, document::MotionTime> motions_;  ///< of motions that were read, by path
+  std::string driven_by_;                                ///< the one that sequence_ follows; empty: none
   bool stream_ = false;
   int frame_ = 1, wanted_frame_ = 1;
   bool playing_ = false, loop_ = true;
@@ -315,8 +336,9 @@ class Session {
   std::optional<Settling> settling_;
   std::uint64_t ticket_ = 0;  ///< of the newest request
   std::uint64_t shown_ticket_ = 0;
-  std::uint64_t final_ticket_ = 0;  ///< of the newest one that asked for Quality::Final
-  bool answered_ = true;            ///< the newest final request has its finished answer
+  std::uint64_t final_ticket_ = 0;         ///< of the newest one that asked for Quality::Final
+  std::optional<double> preparing_since_;  ///< seconds, when the solver was first seen to build what it builds
+  bool answered_ = true;                   ///< the newest final request has its finished answer
   std::string failure_;  ///< why the newest request has no answer; empty: it has, or is on its way for the first time
   std::vector<document::LayerResult> shown_;
   std::vector<Vec3> bent_;

@@ -14,12 +14,6 @@ namespace {
 using document::Layer;
 using document::Project;
 
-/// The pose that a layer starts from holds only for the structure that it was found with, and that follows from the
-/// layer's own settings and from all below it.
-void forget_starts(Project& project, std::size_t from) {
-  for (std::size_t i = from; i < project.layers.size(); ++i) project.layers[i].start = {};
-}
-
 std::string counted(const char* what, std::size_t points) {
   return fmt::format("{} {} point{}", what, points, points == 1 ? "" : "s");
 }
@@ -60,6 +54,7 @@ void Session::apply(Project project, const std::string& label) {
 
 /// After any change of what project() is.
 void Session::project_changed() {
+  retime();
   const std::size_t layers = project().layers.size();
   if (layer_ >= layers) layer_ = layers == 0 ? 0 : layers - 1;
   const std::size_t handles = layers == 0 ? 0 : project().layers[layer_].handles.size();

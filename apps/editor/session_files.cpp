@@ -6,6 +6,7 @@
 #include "engine/document/settings.h"
 #include "engine/io/frame_pattern.h"
 #include "engine/io/io.h"
+#include "engine/io/motion.h"
 #include "engine/io/sequence.h"
 
 namespace sinew::editor {
@@ -65,6 +66,7 @@ struct Session::Opened {
   std::string input_path, edit_path;
   document::Project project;
   std::shared_ptr<document::Selector> selector;
+  std::map<std::string, document::MotionTime> motions;  ///< by path
   Bounds bounds;
   PointSet finite;
   bool on_disk = true;  ///< the project is what the edit's file says
@@ -72,17 +74,7 @@ struct Session::Opened {
 
 void Session::open(const std::string& path) {
   next_open_ = absolute(path);
-  if (background_->busy() && background_->can_cancel()) {
-    background_->cancel();
-  } else if (has_input() && !background_->busy() && solver_->busy() && solver_->building() < 1) {
-    cancel_drag();
-    solver_->cancel();
-    wanted_frame_ = frame_;
-    playing_ = false;
-    answered_ = true;
-    settling_.reset();
-    failure_ = "Preparing the layer was cancelled; any change to it begins anew.";
-  }
+  if (background_->busy() && background_->can_cancel()) background_->cancel();
   start_waiting();
 }
 
@@ -98,7 +90,11 @@ static void prepare(auto& opened) {
 }
 
 void Session::open_now(const std::string& path) {
-  const auto work = [this, path, present = input_, present_sequence = sequence_,
+  if (io::is_motion(path)) {
+    open_motion(path);
+    return;
+  }
+  const auto work = [this, path, present = input_, present_sequence = source_,
                      present_path = input_path_](const Tell& tell) -> Background::Finish {
     auto opened = std::make_shared<Opened>();
     opened->input_path = path;
@@ -123,6 +119,8 @@ void Session::open_now(const std::string& path) {
       throw file_error(path, "an edit with \"inputs\", or its shape opened before", "an edit alone");
     }
     opened->project.inputs = {opened->input_path};
+    if (const document::MarkersEdit* driving = document::driving_markers(opened->project.layers))
+      opened->motions[driving->path] = document::Markers(*driving).time();
     prepare(*opened);
     if (!tell(1)) throw io::Cancelled{};
     return [this, opened] { show(std::move(*opened)); };
@@ -143,7 +141,8 @@ void Session::adopt(std::shared_ptr<const Shape> shape, const std::string& path,
 void Session::show(Opened opened) {
   close();
   input_ = std::move(opened.shape);
-  sequence_ = std::move(opened.sequence);
+  source_ = sequence_ = std::move(opened.sequence);
+  for (auto& [path, time] : opened.motions) motions_[path] = std::move(time);
   stream_ = opened.stream;
   frame_ = wanted_frame_ = sequence_->frames.front();
   input_path_ = std::move(opened.input_path);
@@ -170,7 +169,9 @@ void Session::close() {
   drag_.reset();
   settling_.reset();
   input_.reset();
+  source_.reset();
   sequence_.reset();
+  driven_by_.clear();
   stream_ = playing_ = false;
   selector_.reset();
   neighbourhood_.reset();
@@ -305,9 +306,12 @@ void Session::export_frames(const Waiting& waiting) {
     const std::unique_ptr<io::FrameWriter> writer = io::create_frames(waiting.path, options);
     document::Workspace workspace(sequence, file_methods_);
     for (std::size_t i = 0; i < sequence->frames.size(); ++i) {
-      if (!tell(static_cast<double>(i) / static_cast<double>(sequence->frames.size()))) throw io::Cancelled{};
+      const double done = static_cast<double>(i) / static_cast<double>(sequence->frames.size());
+      document::EvaluateOptions evaluating;
+      evaluating.progress = [&](const char*, std::size_t, double) { return tell(done); };
+      if (!tell(done)) throw io::Cancelled{};
       const int frame = sequence->frames[i];
-      writer->write(frame, *document::evaluate(workspace, layers, frame).shape);
+      writer->write(frame, *document::evaluate(workspace, layers, frame, evaluating).shape);
     }
     const auto report = std::make_shared<io::WriteReport>(writer->commit());
     return [this, path = waiting.path, report, count = sequence->frames.size()] {
@@ -322,12 +326,35 @@ void Session::export_frames(const Waiting& waiting) {
 std::optional<Job> Session::job() const {
   if (background_->busy())
     return Job{background_->what(), background_->fraction(), background_->seconds(), background_->can_cancel()};
-  if (solver_->busy() && solver_->building() < 1) return Job{"Preparing the layer", solver_->building(), 0, true};
+  if (preparing())
+    return Job{"Preparing the layer", solver_->building(), preparing_since_ ? seconds_now() - *preparing_since_ : 0,
+               true};
   return std::nullopt;
 }
 
+bool Session::preparing() const {
+  return has_input() && solver_->busy() && solver_->building() < 1;
+}
+
+/// The layer stays as it is in the project, without an answer, until something of it changes.
+void Session::cancel_preparing() {
+  cancel_drag();
+  solver_->cancel();
+  wanted_frame_ = frame_;
+  playing_ = false;
+  answered_ = true;
+  settling_.reset();
+  final_ticket_ = ++ticket_;  // an answer that is on its way is not wanted any more
+  failure_ = "Preparing the layer was cancelled; any change to it begins anew.";
+  changed_.project = true;
+}
+
 void Session::cancel_job() {
-  if (background_->busy() && background_->can_cancel()) background_->cancel();
+  if (background_->busy()) {
+    if (background_->can_cancel()) background_->cancel();
+  } else if (preparing()) {
+    cancel_preparing();
+  }
   after_neighbourhood_.clear();
   next_open_.reset();
 }

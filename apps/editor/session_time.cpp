@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "apps/editor/session.h"
@@ -10,10 +9,6 @@ namespace {
 
 using document::Layer;
 using document::Project;
-
-double seconds_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// The index of the frame nearest to `frame`.
 std::size_t nearest_frame(std::span<const int> frames, int frame) {

@@ -232,6 +232,9 @@ gpu::Scene Stage::scene(Session& session, const View& view, const Theme& theme, 
       scene.clouds.push_back({.points = &*points_, .size = size, .count = count, .rest = true, .ghost = 0.35});
   }
   add_structure(scene, session, view);
+  if (view.show_markers)
+    for (const document::Markers::Picture& picture : session.marker_pictures())
+      gpu::add_markers(picture.seen, picture.unseen, picture.bones, static_cast<double>(scale()), scene);
   const std::vector<HandleView> handles = session.handles();
   for (std::size_t i = 0; i < handles.size(); ++i) {
     gpu::Dot dot = gpu::handle_dot(handles[i].target, theme.look.handle);

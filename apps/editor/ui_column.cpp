@@ -210,6 +210,7 @@ void show_settings(Ui& ui) {
       if (method.name == now->method)
         for (const Setting& setting : method.settings) show_setting(ui, index, setting);
   }
+  show_motion(ui);
   pop_fields();
 }
 
@@ -356,6 +357,9 @@ void show_look(Ui& ui) {
     toggle("Cut open", "The tets on one side of a plane through the shape, as a solid", view.cut_tets);
     if (view.cut_tets) show_section(view.section);
   }
+  if (ui.context.session.layer() != nullptr && ui.context.session.layer()->markers)
+    toggle("Markers", "Markers of the motion, hollow where they were not seen, and bones of its skeleton",
+           view.show_markers);
   if (ui.context.session.layer() != nullptr)
     toggle("Rest shape", "A ghost of the shape before any edit", view.show_rest);
   toggle("Ground", "A grid below the shape", view.show_ground);

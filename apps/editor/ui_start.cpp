@@ -17,6 +17,7 @@ namespace sinew::editor {
 namespace {
 
 constexpr double toast_seconds = 6;
+constexpr double job_patience = 0.2;  ///< what takes less is not shown
 
 void centred(const std::string& text, ImFont* font, const ImVec4& color) {
   ImGui::PushFont(font);
@@ -85,7 +86,11 @@ void show_start(Ui& ui) {
 
 void show_job(Ui& ui) {
   const std::optional<Job> job = ui.context.session.job();
-  if (!job || job->seconds < 0.2) return;
+  if (!job) return;
+  if (job->seconds < job_patience) {
+    ui.next_frame = std::min(ui.next_frame, now() + job_patience - job->seconds);
+    return;
+  }
   const float width = px(340), height = px(64);
   const float middle = 0.5f * (ui.context.session.has_input() ? ui.layout.column : ui.layout.width);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(6));

@@ -12,6 +12,7 @@
 #include "apps/sinew/scene.h"
 #include "deformers/methods.h"
 #include "engine/document/edit.h"
+#include "engine/document/markers.h"
 #include "engine/document/settings.h"
 #include "engine/geometry/error.h"
 #include "engine/gpu/offscreen.h"
@@ -95,6 +96,11 @@ void check_tets(const Options& options, const std::set<std::string>& show, const
   throw UsageError("--show tets: expected an edit (--edit) with a layer of the method tet, found none");
 }
 
+void check_markers(const std::set<std::string>& show, const document::Project& project) {
+  if (show.contains("markers") && document::driving_markers(project.layers) == nullptr)
+    throw UsageError("--show markers: expected an edit (--edit) with a layer that has markers, found none");
+}
+
 int frame_of(const Options& options, const Sequence& sequence) {
   if (options.frame.empty()) return sequence.frames.front();
   std::int64_t frame = 0;
@@ -122,7 +128,7 @@ gpu::Picture draw(const Shape& input, const document::Evaluation* evaluation, co
 }
 
 int run(const Options& options) {
-  const View view = view_of(options);
+  View view = view_of(options);
   const std::set<std::string> show = shown(options.show);
   check_fields(show, !options.edit.empty());
   if (!options.png.ends_with(".png")) throw UsageError(options.png + ": expected a name that ends in .png");
@@ -133,8 +139,10 @@ int run(const Options& options) {
     document::check_layers(project.layers, methods());
   }
   check_tets(options, show, project);
-  const std::shared_ptr<const Sequence> sequence = open_input(options.input, options.from);
-  const int frame = frame_of(options, *sequence);
+  check_markers(show, project);
+  const auto sequence = std::make_shared<const Sequence>(
+      document::with_frames_of_markers(*open_input(options.input, options.from), project.layers));
+  const int frame = view.frame = frame_of(options, *sequence);
   document::Workspace workspace(sequence, methods());
   const std::shared_ptr<const Shape> input = workspace.input(frame);
   for (const std::string& note : input->notes) message(options.input + ": " + note);
@@ -160,13 +168,15 @@ std::function<int()> declare_render(Arguments& arguments) {
   arguments.positional("INPUT", options->input, "File to draw, or frames: name.####.obj; - with --from");
   arguments.option("-o,--output", "PNG", options->png, "Picture to write", true);
   arguments.option("-e,--edit", "EDIT.json", options->edit, "Draw the shape bent by this edit");
-  arguments.option("--frame", "N", options->frame, "Of frames (name.####.obj, name.pc2) or keys; the first without");
+  arguments.option("--frame", "N", options->frame,
+                   "Of frames (name.####.obj, name.pc2), keys or a motion; the first without");
   arguments.option("--size", "WxH", options->size, "Pixels; 1280x720 without");
   arguments.option("--view", "VIEW", options->view,
                    "front, back, left, right, top, bottom, iso (without), or eye and target ex,ey,ez,tx,ty,tz");
   arguments.option(
       "--show", "LIST", options->show,
-      "Some of graph, tets (in place of the shape), handles, fixed, rigid, stiffness, rest (the shape before, "
+      "Some of graph, tets (in place of the shape), handles, markers (of a motion), fixed, rigid, stiffness, rest (the "
+      "shape before, "
       "faintly), ground, points (in place of splats or faces), energy or displacement (as colours); with commas");
   arguments.option("--cut", "AXIS=PART", options->cut,
                    "Of the tets only this part of their extent along an axis: z=0.5");

@@ -208,6 +208,11 @@ void add_layers(const document::Evaluation& evaluation, const std::set<std::stri
   }
 }
 
+void add_motion(const document::Markers::Picture& picture, Bounds& bounds, gpu::Scene& scene) {
+  picture.add_to(bounds);
+  gpu::add_markers(picture.seen, picture.unseen, picture.bones, 1, scene);
+}
+
 void add_bounds(const Bounds& more, Bounds& bounds) {
   if (more.empty()) return;
   bounds.add(more.min);
@@ -224,6 +229,9 @@ void fill_scene(const gpu::Device& device, const Shape& input, const document::E
   if (splats) out.splats = gpu::create_splats(shape);
   Bounds bounds = splats ? gpu::bulk_bounds(out.splats) : bounds_of(shape.positions);
   if (rest) add_bounds(splats ? gpu::bulk_bounds(gpu::create_splats(input)) : bounds_of(input.positions), bounds);
+  if (evaluation != nullptr && show.contains("markers"))
+    for (const document::LayerResult& layer : evaluation->layers)
+      if (layer.markers != nullptr) add_motion(layer.markers->picture(view.frame, shape.origin), bounds, out.scene);
   out.scene.up = view.z_up ? gpu::UpAxis::Z : gpu::UpAxis::Y;
   out.scene.camera = camera_of(view, bounds, shape.origin);
   out.scene.ground = gpu::ground_below(bounds, out.scene.up);

@@ -17,8 +17,8 @@
 namespace sinew::app {
 
 /// What --show can name.
-inline constexpr const char* show_names[] = {"graph", "tets",   "handles", "fixed",  "rigid",       "stiffness",
-                                             "rest",  "ground", "points",  "energy", "displacement"};
+inline constexpr const char* show_names[] = {"graph",     "tets", "handles", "markers", "fixed",  "rigid",
+                                             "stiffness", "rest", "ground",  "points",  "energy", "displacement"};
 
 struct View {
   std::string name = "iso";  ///< of look_from(), or "ex,ey,ez,tx,ty,tz"
@@ -26,6 +26,7 @@ struct View {
   int width = 1280, height = 720;
   double point_size = 0;                ///< pixels; 0: from the number of points
   std::optional<gpu::Section> section;  ///< of the tets
+  int frame = 1;                        ///< whose markers are drawn
 };
 
 /// Keeps the buffers that `scene` points to.

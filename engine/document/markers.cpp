@@ -31,6 +31,10 @@ std::string some_names(const io::Trajectories& motion) {
 
 Markers::Markers(const MarkersEdit& edit) : edit_(edit), motion_(io::read_motion(edit.path)) {
   for (const std::string& note : motion_.notes) notes_.push_back(note);
+  for (const std::vector<Vec3>& points : motion_.frames) {
+    gap_.emplace_back(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) gap_.back()[i] = !io::seen(points[i]);
+  }
   for (const std::string& sentence : io::bridge_gaps(motion_, edit.bridge).sentences()) notes_.push_back(sentence);
   const int first = edit.first.value_or(motion_.first_frame);
   first_ = row(first);
@@ -108,9 +112,10 @@ std::size_t Markers::row(int frame) const {
   return at >= 0 && at < static_cast<long long>(motion_.frames.size()) ? static_cast<std::size_t>(at) : missing;
 }
 
-std::vector<int> Markers::frames() const {
-  std::vector<int> out;
-  for (std::size_t f = 0; f < motion_.frames.size(); ++f) out.push_back(motion_.first_frame + static_cast<int>(f));
+MotionTime Markers::time() const {
+  MotionTime out{{}, motion_.rate};
+  for (std::size_t f = 0; f < motion_.frames.size(); ++f)
+    out.frames.push_back(motion_.first_frame + static_cast<int>(f));
   return out;
 }
 
@@ -127,18 +132,75 @@ Handle Markers::handle(int frame, const Vec3& origin) const {
   return out;
 }
 
-Sequence with_frames_of_markers(const Sequence& input, std::span<const Layer> layers) {
-  if (input.frames.size() > 1) return input;
-  for (const Layer& layer : layers) {
-    if (!layer.on || !layer.markers) continue;
-    const Markers markers(*layer.markers);
-    Sequence out = input;
-    out.frames = markers.frames();
-    if (markers.rate() > 0) out.rate = markers.rate();
-    out.load = [load = input.load, frame = input.frames.front()](int) { return load(frame); };
-    return out;
+/// Of a marker that is seen in the first frame that is aligned, so there is such a place.
+Vec3 Markers::nearest_seen(std::size_t row, std::size_t point) const {
+  for (std::size_t f = row + 1; f-- > 0;)
+    if (io::seen(motion_.frames[f][point])) return motion_.frames[f][point];
+  while (!io::seen(motion_.frames[row][point])) ++row;
+  return motion_.frames[row][point];
+}
+
+Markers::Picture Markers::picture(int frame, const Vec3& origin) const {
+  Picture out;
+  const std::size_t now = row(frame);
+  if (now == missing) return out;
+  for (const std::size_t i : used_)
+    (gap_[now][i] ? out.unseen : out.seen).push_back(aligned(nearest_seen(now, i)) - origin);
+  for (const auto& [parent, child] : motion_.bones)
+    out.bones.emplace_back(aligned(motion_.frames[now][static_cast<std::size_t>(parent)]) - origin,
+                           aligned(motion_.frames[now][static_cast<std::size_t>(child)]) - origin);
+  return out;
+}
+
+void Markers::Picture::add_to(Bounds& bounds) const {
+  for (const std::vector<Vec3>* points : {&seen, &unseen})
+    for (const Vec3& p : *points) bounds.add(p);
+  for (const auto& [from, to] : bones) {
+    bounds.add(from);
+    bounds.add(to);
   }
-  return input;
+}
+
+MarkersEdit markers_over(const std::string& path, const Bounds& shape) {
+  MarkersEdit out;
+  out.path = path;
+  const io::Trajectories motion = io::read_motion(path);
+  const Bounds markers = bounds_of(motion.frames.front());
+  if (markers.empty()) throw file_error(path, "markers that are seen in the first frame", "none");
+  const auto longest = [](const Bounds& bounds) {
+    Eigen::Index axis = 0;
+    (bounds.max - bounds.min).maxCoeff(&axis);
+    return axis;
+  };
+  Rotation turn{Vec3::UnitX(), 0, markers.centre()};
+  if (const Eigen::Index from = longest(markers), to = longest(shape); from != to) {
+    turn.axis = Vec3::Unit(3 - from - to);
+    turn.degrees = Vec3::Unit(from).cross(Vec3::Unit(to)).dot(turn.axis) > 0 ? 90 : -90;
+  }
+  out.scale = markers.diagonal() > 0 && shape.diagonal() > 0 ? shape.diagonal() / markers.diagonal() : 1;
+  out.rotate = turn;
+  out.move = shape.centre() - *out.scale * markers.centre();
+  return out;
+}
+
+Sequence over_time(const Sequence& still, const MotionTime& time) {
+  Sequence out = still;
+  out.frames = time.frames;
+  if (time.rate > 0) out.rate = time.rate;
+  out.load = [load = still.load, frame = still.frames.front()](int) { return load(frame); };
+  return out;
+}
+
+const MarkersEdit* driving_markers(std::span<const Layer> layers) {
+  for (const Layer& layer : layers)
+    if (layer.on && layer.markers) return &*layer.markers;
+  return nullptr;
+}
+
+Sequence with_frames_of_markers(const Sequence& input, std::span<const Layer> layers) {
+  const MarkersEdit* driving = driving_markers(layers);
+  if (input.frames.size() > 1 || driving == nullptr) return input;
+  return over_time(input, Markers(*driving).time());
 }
 
 }  // namespace sinew::document

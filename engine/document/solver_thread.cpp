@@ -37,7 +37,9 @@ void SolverThread::run() {
     if (request->input == nullptr) continue;
     busy_ = true;
     serve(*request);
+    building_ = 1;
     busy_ = false;
+    if (notify_) notify_();  // one that was stopped has no answer, and is over all the same
   }
 }
 

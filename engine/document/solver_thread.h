@@ -39,7 +39,8 @@ struct SolveAnswer {
 
 class SolverThread {
  public:
-  /// `methods` must outlive the thread. `notify` is called on the solver's thread after each answer (to wake a window).
+  /// `methods` must outlive the thread. `notify` is called on the solver's thread after each answer
+  /// and when it has nothing to do any more (to wake a window).
   explicit SolverThread(std::span<const Method> methods, std::function<void()> notify = {});
   /// Stops a running solve at its next iteration, and joins.
   ~SolverThread();

@@ -416,6 +416,7 @@ LayerResult Workspace::result(std::size_t i, const Solved& solved) {
   out.examples = kept.examples;
   out.solved = true;
   out.build_seconds = kept.build_seconds;
+  out.markers = kept.markers;
   return out;
 }
 

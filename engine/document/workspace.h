@@ -38,6 +38,7 @@ struct LayerResult {
   std::vector<std::string> examples;                      ///< names, in the order of the report's example_weights
   bool solved = false;       ///< false: an earlier pose is carried along, because a layer below is being dragged
   double build_seconds = 0;  ///< making the deformer: its structure and the weights of the points
+  std::shared_ptr<const Markers> markers;  ///< the motion that drives the layer; null where there is none
 };
 
 struct UpdateOptions {

@@ -14,6 +14,33 @@ Dot handle_dot(const Eigen::Vector3d& position, Color color) {
   return dot;
 }
 
+void add_markers(std::span<const Eigen::Vector3d> seen, std::span<const Eigen::Vector3d> unseen,
+                 std::span<const std::pair<Eigen::Vector3d, Eigen::Vector3d>> bones, double scale, Scene& scene) {
+  const Color color = scene.look.handle;
+  Line bone;
+  bone.color = {color.r, color.g, color.b, 200};
+  bone.width = 1.5 * scale;
+  bone.hidden = 0.5;
+  for (const auto& [from, to] : bones) {
+    bone.from = from;
+    bone.to = to;
+    scene.lines.push_back(bone);
+  }
+  for (const bool hollow : {true, false}) {
+    for (const Eigen::Vector3d& at : hollow ? unseen : seen) {
+      Dot dot = handle_dot(at, color);
+      dot.radius = (hollow ? 2.5 : 3) * scale;
+      dot.outline = (hollow ? 1.5 : 1) * scale;
+      dot.hidden = 0.5;
+      if (hollow) {
+        dot.outline_color = color;
+        dot.color.a = 40;
+      }
+      scene.dots.push_back(dot);
+    }
+  }
+}
+
 Ground ground_below(const Bounds& bounds, UpAxis up) {
   Ground ground;
   const int axis = up == UpAxis::Y ? 1 : 2;

@@ -5,6 +5,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/gpu/camera.h"
@@ -65,6 +67,12 @@ struct Dot {
 };
 /// A control point as it always looks: a ball of 7 pixels with a dark outline, faintly seen through the shape.
 Dot handle_dot(const Eigen::Vector3d& position, Color color);
+
+struct Scene;
+/// Markers of a motion as they always look: small balls in the look's colour of handles, hollow where the marker was
+/// not seen, and bones as thin lines. `scale`: of lengths on the screen.
+void add_markers(std::span<const Eigen::Vector3d> seen, std::span<const Eigen::Vector3d> unseen,
+                 std::span<const std::pair<Eigen::Vector3d, Eigen::Vector3d>> bones, double scale, Scene& scene);
 
 struct Ground {
   bool show = true;

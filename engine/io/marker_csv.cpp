@@ -32,6 +32,14 @@ char separator_of(std::string_view line) {
   return ',';
 }
 
+bool names_frame(const std::string& cell) {
+  return same_word(cell, "frame") || same_word(cell, "frame#");
+}
+
+bool names_time(const std::string& cell) {
+  return same_word(cell, "time") || same_word(cell, "time (s)") || same_word(cell, "time_s") || same_word(cell, "t");
+}
+
 /// What the row of names says.
 class HeaderRow {
  public:
@@ -48,7 +56,6 @@ class HeaderRow {
 
   void add(const std::vector<Cell>& cells, std::size_t i) {
     const std::string& text = cells[i].text;
-    const auto is = [&](const char* word) { return same_word(text, word); };
     if (const auto axis = axis_of(text); axis) {
       const auto [at, fresh] = markers_.try_emplace(axis->marker, columns.names.size());
       if (fresh) {
@@ -56,9 +63,9 @@ class HeaderRow {
         columns.places.push_back({none, none, none});
       }
       take(columns.places[at->second][axis->axis], cells[i], i);
-    } else if (is("frame") || is("frame#")) {
+    } else if (names_frame(text)) {
       take_optional(columns.frame, cells[i], i);
-    } else if (is("time") || is("time (s)") || is("time_s") || is("t")) {
+    } else if (names_time(text)) {
       take_optional(columns.time, cells[i], i);
     } else if (!text.empty()) {
       others.push_back(text);
@@ -119,11 +126,30 @@ std::vector<std::string> column_names(const std::vector<std::string>& names, Wri
   return out;
 }
 
+/// The mark that spreadsheets put before UTF-8 is left out.
+std::string_view without_mark(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  return text;
+}
+
 }  // namespace
 
+bool names_markers(std::string_view row) {
+  row = without_mark(row);
+  bool markers = false, frames = false;
+  for (const Cell& cell : cells_of(row, separator_of(row))) {
+    if (names_frame(cell.text) || names_time(cell.text))
+      frames = true;
+    else if (axis_of(cell.text))
+      markers = true;
+    else if (!cell.text.empty())
+      return false;
+  }
+  return markers && frames;
+}
+
 Trajectories read_marker_csv(const std::string& path, std::span<const std::byte> bytes) {
-  std::string_view text = as_text(bytes);
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);  // the mark that spreadsheets put before UTF-8
+  const std::string_view text = without_mark(as_text(bytes));
   TextCursor cursor(path, text);
   const std::string_view names = cursor.rest();
   const char separator = separator_of(names);

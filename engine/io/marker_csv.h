@@ -12,6 +12,9 @@ namespace sinew::io {
 /// Throws InputError. Other columns are named in a note.
 Trajectories read_marker_csv(const std::string& path, std::span<const std::byte> bytes);
 
+/// Whether a first row has columns of markers, of the frame or time, and none else.
+bool names_markers(std::string_view row);
+
 /// "frame", "time" where there is a rate, and NAME.x, NAME.y, NAME.z; numbers that read back as the same.
 std::vector<std::byte> write_marker_csv(const Trajectories& motion, WriteReport& report);
 

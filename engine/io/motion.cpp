@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 
 #include "engine/io/bvh.h"
 #include "engine/io/bytes.h"
@@ -45,6 +46,16 @@ const MotionFormat* motion_format_of(const std::string& path, const std::string&
   const auto row =
       std::find_if(table().begin(), table().end(), [&](const auto& f) { return "." + f.extension == extension; });
   return row == table().end() ? nullptr : &*row;
+}
+
+bool is_motion(const std::string& path) {
+  const MotionFormat* format = motion_format_of(path);
+  if (format == nullptr || format->read != read_marker_csv) return format != nullptr;
+  std::ifstream file(path, std::ios::binary);
+  std::string row(1 << 20, '\0');  // longer than any row of names
+  file.read(row.data(), static_cast<std::streamsize>(row.size()));
+  row.resize(static_cast<std::size_t>(file.gcount()));
+  return names_markers(row.substr(0, row.find_first_of("\r\n")));
 }
 
 Trajectories read_motion(const std::string& path, const std::string& as) {

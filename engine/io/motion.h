@@ -53,6 +53,10 @@ std::span<const MotionFormat> motion_formats();
 /// By the extension, of "-" by `as`; null where it is none of motion. ".csv" is one of shapes as well.
 const MotionFormat* motion_format_of(const std::string& path, const std::string& as = "");
 
+/// Whether a file is meant as motion: by its extension; a .csv where its first row has columns of markers, of the frame
+/// or time, and none else. False where it can't be read.
+bool is_motion(const std::string& path);
+
 /// There is at least one frame of at least one point, and each frame has as many points as there are names. Throws
 /// InputError. "-" is standard input, in the format of the extension `as`.
 Trajectories read_motion(const std::string& path, const std::string& as = "");

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <thread>
 
 #include "apps/editor/commands.h"
@@ -27,6 +29,18 @@ std::string failure_of(const Session& session) {
   for (const Notice& hint : session.hints())
     if (hint.severity == Severity::Error) return hint.text;
   return {};
+}
+
+/// Processes that threads of this one have started.
+std::string children() {
+  std::string out;
+  for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::ifstream file(task.path() / "children");
+    std::string text;
+    std::getline(file, text);
+    out += text;
+  }
+  return out;
 }
 
 /// A closed bar of 0.5 x 1.65 x 0.5 along y.
@@ -278,6 +292,28 @@ TEST_F(EditorTet, AnOpenShapeIsRefusedInOneSentenceAndTheOtherMethodBringsItBack
   EXPECT_EQ(errors_of(session), "");
   EXPECT_EQ(failure_of(session), "");
   ASSERT_EQ(session.shown().size(), 1u);
+}
+
+TEST_F(EditorTet, CancelStopsTheMakingOfTetsAndAnyChangeBeginsAnew) {
+  open(samples::box({50, 160, 50}, Vec3(0.01, 0.01, 0.01)), 40'000);  // tets of which take more than a moment
+  ASSERT_TRUE(until(session, [&] { return !children().empty(); })) << "sinew-tets was never seen";
+  ASSERT_TRUE(until(session, [&] { return session.job() && session.job()->seconds > 0.2; }));
+  EXPECT_EQ(session.job()->what, "Preparing the layer");
+  ASSERT_TRUE(session.job()->can_cancel);
+  const auto begin = std::chrono::steady_clock::now();
+  session.cancel_job();
+  ASSERT_TRUE(until(session, [&] { return !session.job() && children().empty(); }));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+  EXPECT_FALSE(session.solving());
+  EXPECT_TRUE(session.shown().empty());
+  EXPECT_NE(failure_of(session).find("cancelled"), std::string::npos) << failure_of(session);
+  EXPECT_EQ(errors_of(session), "");
+
+  session.set_setting(0, "vertices", 200.0);
+  ASSERT_TRUE(settle(session));
+  EXPECT_EQ(failure_of(session), "");
+  ASSERT_EQ(session.shown().size(), 1u);
+  EXPECT_FALSE(session.shown()[0].structure->tets.empty());
 }
 
 TEST(SolidFaces, ACutShowsTheFacesThatItLaysBare) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# editor_test.sh PROGRAMS story|time|splats|large|storm
+# editor_test.sh PROGRAMS story|time|splats|motion|cancel|large|storm
 #
 # Uses the window as a person would: real mouse and keys on a screen of its own, with the validation layer on.
 #   story  opens the sample scan, marks head and feet, drags, undoes, redoes, saves, exports; the command line must come
@@ -8,6 +8,10 @@
 #          saves, exports all frames; the command line must come to the same frames
 #   splats opens Gaussian splats, marks, drags, saves, exports; the command line must come to the same file, covariances
 #          and colours included
+#   motion opens a bar with markers that lean, scrubs, plays, exports; the command line must come to the same frames; then
+#          opens the motion onto the bar alone, aligns it, saves; then a dance of 40 markers with a body, where there is
+#          one (SINEW_SHARED, or ../shared beside the sources)
+#   cancel stops the making of tets by the button Cancel
 #   large  opens, marks and drags 1,000,000 points
 #   storm  500 sizes of the window, then hidden and shown again: no message, no more memory than after the first 100
 # Prints how long the pictures of a drag took after their mouse events. SHOTS=FOLDER keeps screenshots.
@@ -31,6 +35,7 @@ mkdir -p "$HOME"
 
 fail() {
   echo "failed: $*"
+  shot failed
   [ ! -s "$work/log" ] || sed 's/^/  /' "$work/log"
   exit 1
 }
@@ -300,6 +305,194 @@ splats() {
     fail "sinew deform"
   ! cmp -s "$work/splats.ply" "$work/window.ply" || fail "the drag bent nothing"
   cmp "$work/line.ply" "$work/window.ply" || fail "the command line comes to other splats than the window"
+}
+
+# A box along y of so many cells of so much (across, along, cell), closed, as OBJ.
+box() {
+  awk -v n="$1" -v m="$2" -v h="$3" '
+    function v(i, j, k) {
+      if (!((i, j, k) in at)) { at[i, j, k] = ++count; printf "v %.9g %.9g %.9g\n", (i - n / 2) * h, j * h, (k - n / 2) * h }
+      return at[i, j, k]
+    }
+    function quad(a, b, c, d) { printf "f %d %d %d\nf %d %d %d\n", a, b, c, a, c, d }
+    BEGIN {
+      for (i = 0; i < n; ++i) for (k = 0; k < n; ++k) {
+        quad(v(i, 0, k), v(i + 1, 0, k), v(i + 1, 0, k + 1), v(i, 0, k + 1))
+        quad(v(i, m, k), v(i, m, k + 1), v(i + 1, m, k + 1), v(i + 1, m, k))
+      }
+      for (i = 0; i < n; ++i) for (j = 0; j < m; ++j) {
+        quad(v(i, j, 0), v(i, j + 1, 0), v(i + 1, j + 1, 0), v(i + 1, j, 0))
+        quad(v(i, j, n), v(i + 1, j, n), v(i + 1, j + 1, n), v(i, j + 1, n))
+        quad(v(0, j, i), v(0, j, i + 1), v(0, j + 1, i + 1), v(0, j + 1, i))
+        quad(v(n, j, i), v(n, j + 1, i), v(n, j + 1, i + 1), v(n, j, i + 1))
+      }
+    }'
+}
+
+# 24 frames of six markers in millimetres, z up: four at the foot of a bar of 0.2 x 1 x 0.2, one above its top and one in
+# the middle of it, which lean over; the last is not seen in frames 9 to 12, the one before it from 20 on.
+lean() {
+  awk 'BEGIN {
+    print "frame,time,A.x,A.y,A.z,B.x,B.y,B.z,C.x,C.y,C.z,D.x,D.y,D.z,E.x,E.y,E.z,F.x,F.y,F.z"
+    for (f = 1; f <= 24; ++f) {
+      a = 0.045 * (f - 1); s = sin(a); c = cos(a)
+      printf "%d,%.4f,-100,100,0,100,100,0,100,-100,0,-100,-100,0", f, (f - 1) / 12
+      if (f >= 20) printf ",,,"
+      else printf ",%.3f,0,%.3f", 1050 * s * 0.6, 1050 * (0.4 + 0.6 * c)
+      if (f >= 9 && f <= 12) print ",,,"
+      else printf ",%.3f,-60,%.3f\n", 600 * s * 0.5, 600 * (0.5 + 0.5 * c)
+    }
+  }'
+}
+
+motion() {
+  box 8 40 0.025 >"$work/bar.obj"
+  lean >"$work/lean.csv"
+  cat >"$work/lean.json" <<'EDIT'
+{ "sinew": 1, "inputs": ["bar.obj"], "layers": [ { "method": "tet", "markers": { "file": "lean.csv", "matches": [
+  { "name": "A", "place": [-0.1, 0, -0.1] }, { "name": "B", "place": [0.1, 0, -0.1] },
+  { "name": "C", "place": [0.1, 0, 0.1] } ] } } ] }
+EDIT
+  start_editor "$work/lean.json"
+  until_done 60 title '^bar.obj - Sinew$'
+  sleep 3
+  press Return # the standard navigation
+  shot open
+  press Right Right Right Right Right Right Right Right Right Right
+  sleep 1
+  shot bridged
+  press space
+  sleep 1
+  shot playing
+  press space
+  press shift+Right
+  sleep 1
+  shot last
+  press ctrl+e
+  name "$work/window.pc2"
+  until_done 60 test -s "$work/window.pc2"
+  leave
+  "$programs/sinew" deform "$work/bar.obj" --edit "$work/lean.json" -o "$work/line.pc2" 2>"$work/log" || fail "sinew deform"
+  local apart bytes
+  apart=$(apart_in_time "$work/line.pc2" "$work/window.pc2")
+  bytes=$(stat -c %s "$work/window.pc2")
+  echo "window and command line apart $apart in 24 frames of $bytes bytes"
+  within "$apart" 1e-6 || fail "the command line comes to other frames than the window"
+  [ "$(od -An -tu4 -j28 -N4 "$work/window.pc2" | tr -d ' ')" = 24 ] || fail "not 24 frames"
+  drop_motion
+  dance
+}
+
+# A new user's way: the shape, then the motion, then a number in the column.
+drop_motion() {
+  start_editor "$work/bar.obj"
+  until_done 60 title '^bar.obj - Sinew$'
+  sleep 1
+  press ctrl+o
+  sleep 0.6
+  xdotool type --delay 20 lean.csv
+  press Return
+  until_done 30 title '^bar.obj \* - Sinew$'
+  sleep 3
+  shot dropped
+  press shift+Right
+  sleep 1
+  shot dropped-last
+  press ctrl+s
+  name "$work/dropped.json"
+  until_done 30 test -s "$work/dropped.json"
+  press ctrl+e
+  name "$work/dropped.pc2"
+  until_done 60 test -s "$work/dropped.pc2"
+  leave
+  "$programs/sinew" deform "$work/bar.obj" --edit "$work/dropped.json" -o "$work/dropped-line.pc2" 2>"$work/log" ||
+    fail "sinew deform of the edit with the dropped motion"
+  local apart
+  apart=$(apart_in_time "$work/dropped-line.pc2" "$work/dropped.pc2")
+  echo "dropped: window and command line apart $apart"
+  within "$apart" 1e-6 || fail "the command line comes to other frames of the dropped motion"
+}
+
+# Matches of the armadillo and the dance, found by hand.
+dance() {
+  local data=${SINEW_SHARED:-$(dirname "$0")/../../../shared}/data
+  if [ ! -e "$data/mocap/c3d/Dance.c3d" ] || [ ! -e "$data/meshes/armadillo.obj" ]; then
+    echo "the dance is skipped: no $data/mocap/c3d/Dance.c3d or meshes/armadillo.obj"
+    return
+  fi
+  data=$(realpath "$data")
+  {
+    echo "{ \"sinew\": 1, \"inputs\": [\"$data/meshes/armadillo.obj\"], \"layers\": [ { \"method\": \"tet\","
+    echo "\"settings\": { \"vertices\": 1500 }, \"markers\": { \"file\": \"$data/mocap/c3d/Dance.c3d\", \"corresponding\": true,"
+    echo '"matches": ['
+    awk '{ name = $1; $1 = ""; printf "%s{ \"name\": \"Channel%s\", \"place\": [%s ] }", (NR > 1 ? ",\n" : ""), name, $0 }' <<'MATCHES'
+101 0.03, 0.33, -0.12
+103 -0.04, 0.33, 0.1
+110 0, 0.15, 0.12
+163 0, 0.12, -0.2
+113 -0.08, -0.12, 0
+159 0.05, -0.12, -0.19
+117 -0.16, 0.23, -0.05
+118 -0.29, 0.12, -0.05
+125 -0.35, 0.22, 0.1
+156 0.16, 0.23, -0.05
+154 0.28, 0.12, 0
+145 0.33, 0.22, 0.2
+123 -0.2, -0.3, -0.02
+129 -0.22, -0.55, 0.02
+150 0.22, -0.3, -0.01
+141 0.27, -0.55, 0.04
+MATCHES
+    echo '] } } ] }'
+  } >"$work/dance.json"
+  start_editor "$work/dance.json"
+  until_done 60 title '^armadillo.obj - Sinew$'
+  sleep 8
+  shot dance-first
+  press space
+  sleep 3
+  shot dance-playing
+  press space
+  sleep 4
+  shot dance-stopped
+  press shift+Right
+  sleep 4
+  shot dance-last
+  press ctrl+e
+  name "$work/last.obj"
+  until_done 60 test -s "$work/last.obj"
+  leave
+  "$programs/sinew" deform "$data/meshes/armadillo.obj" --edit "$work/dance.json" --frames 499 -o "$work/line.####.obj" \
+    2>"$work/log" || fail "sinew deform"
+  local apart
+  apart=$(distance "$work/line.0499.obj" "$work/last.obj")
+  echo "the dance's last frame, window and command line apart $apart of the diagonal"
+  within "$apart" 1e-6 || fail "the command line comes to another last frame than the window"
+}
+
+tets_run() { pgrep -P "$editor_pid" -x sinew-tets; }
+no_tets_run() { ! tets_run; }
+
+cancel() {
+  command -v pgrep >/dev/null || { echo "skipped: pgrep is not installed"; exit 77; }
+  box 60 240 0.01 >"$work/large.obj"
+  echo '{ "sinew": 1, "inputs": ["large.obj"], "layers": [ { "method": "tet", "settings": { "vertices": 100000 } } ] }' >"$work/slow.json"
+  start_editor "$work/slow.json"
+  until_done 60 title '^large.obj - Sinew$'
+  until_done 30 tets_run
+  press Return
+  sleep 1
+  shot making
+  tets_run >/dev/null || fail "the tets were there before they could be cancelled"
+  local began=$SECONDS
+  point 626 656
+  xdotool click 1
+  until_done 3 no_tets_run
+  echo "cancelled within $((SECONDS - began + 1)) s"
+  sleep 1
+  shot cancelled
+  no_tets_run || fail "the tets are made again by themselves"
+  leave
 }
 
 large() {

@@ -4,6 +4,7 @@
 
 #include "engine/gpu/camera.h"
 #include "engine/gpu/png.h"
+#include "tests/apps/bar_motion.h"
 #include "tests/apps/program.h"
 #include "tests/apps/sinew_fixtures.h"
 #include "tests/io/temporary_folder.h"
@@ -230,6 +231,25 @@ TEST(SinewRender, EnergyAndDisplacementAreColoursWithALegend) {
     EXPECT_GT(white, 80) << name;
     EXPECT_EQ(before, 0) << name;
   }
+}
+
+TEST(SinewRender, ShowsTheMarkersOfAMotion) {
+  const TemporaryFolder folder;
+  test::write_bar_motion(folder / "");
+  const auto render = [&](const std::string& frame, const std::string& show) {
+    return drawn(folder, {folder / "bar.obj", "--edit", folder / "lean.json", "--view", "front", "--frame", frame,
+                          "--show", show});
+  };
+  const std::size_t without = count(render("3", "ground"), true);
+  const std::size_t all = count(render("3", "markers"), true), bridged = count(render("6", "markers"), true);
+  EXPECT_EQ(without, 0u);
+  EXPECT_GT(all, 80u);
+  EXPECT_GT(bridged, 60u);
+  EXPECT_LT(bridged, all) << "the one that was not seen is hollow";
+
+  const Outcome none = run_sinew({"render", folder / "bar.obj", "-o", folder / "x.png", "--show", "markers"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_EQ(none.err, "sinew: --show markers: expected an edit (--edit) with a layer that has markers, found none\n");
 }
 
 TEST(SinewRender, FieldsNeedAnEditAndOneOfThemIsEnough) {

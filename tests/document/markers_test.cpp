@@ -91,6 +91,33 @@ TEST_F(MarkersTest, GapsAreBridgedOrTheMarkerIsReleasedAndBothAreTold) {
   EXPECT_NE(markers.notes()[0].find("released (4-6)"), std::string::npos) << markers.notes()[0];
 }
 
+TEST_F(MarkersTest, APictureTellsApartWhatWasNotSeen) {
+  const Vec3 origin(1, 2, 3);
+  EXPECT_EQ(Markers(edit()).picture(3, origin).seen.size(), 5u);
+  const Markers::Picture bridged = Markers(edit()).picture(5, origin);
+  ASSERT_EQ(bridged.unseen.size(), 1u);
+  EXPECT_LT((bridged.unseen[0] + origin - place(4) - Vec3(0.08, 0, 0)).norm(), 1e-6);
+  MarkersEdit strict = edit();
+  strict.bridge = 2;
+  const Markers::Picture released = Markers(strict).picture(6, origin);
+  ASSERT_EQ(released.unseen.size(), 1u);
+  EXPECT_LT((released.unseen[0] + origin - place(4) - Vec3(0.04, 0, 0)).norm(), 1e-6) << "not where it was in frame 3";
+  EXPECT_TRUE(Markers(edit()).picture(9, origin).seen.empty());
+}
+
+TEST_F(MarkersTest, WithoutMatchesTheyAreLaidOverTheShape) {
+  const Bounds shape{Vec3(1, 1, 1), Vec3(1.2, 2, 1.2)};
+  const MarkersEdit over = markers_over((folder_ / "m.csv").string(), shape);
+  EXPECT_TRUE(over.matches.empty());
+  Bounds bounds;
+  Markers(over).picture(1, Vec3::Zero()).add_to(bounds);
+  EXPECT_NEAR(bounds.diagonal(), shape.diagonal(), 1e-9);
+  EXPECT_LT((bounds.centre() - shape.centre()).norm(), 1e-9);
+  Eigen::Index longest = 0;
+  (bounds.max - bounds.min).maxCoeff(&longest);
+  EXPECT_EQ(longest, 1) << "the motion's is x, the shape's y";
+}
+
 TEST_F(MarkersTest, CorrespondingOnesPullTheirMatches) {
   MarkersEdit pulls = edit();
   pulls.corresponding = true;

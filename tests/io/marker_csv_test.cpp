@@ -103,6 +103,23 @@ TEST(MarkerCsv, ARealRecordingSurvives) {
   expect_same(read, gait);
 }
 
+TEST(MarkerCsv, PointsInCsvAreNotTakenForMarkers) {
+  const TemporaryFolder folder;
+  const auto says = [&](const std::string& text) {
+    std::ofstream(folder / "a.csv") << text;
+    return is_motion(folder / "a.csv");
+  };
+  EXPECT_TRUE(says("frame,a.x,a.y,a.z\n1,2,3,4\n"));
+  EXPECT_TRUE(says("\xef\xbb\xbf\"a.x\";a.y;a.z;time (s)\r\n1;2;3;4\n"));
+  EXPECT_FALSE(says("x,y,z\n1,2,3\n"));
+  EXPECT_FALSE(says("x,y,z,v_x,v_y,v_z,time\n1,2,3,4,5,6,7\n"));
+  EXPECT_FALSE(says("P.x,P.y,P.z\n1,2,3\n"));
+  EXPECT_FALSE(says(""));
+  EXPECT_FALSE(is_motion(folder / "none.csv"));
+  EXPECT_TRUE(is_motion("walk.C3D"));
+  EXPECT_FALSE(is_motion("walk.obj"));
+}
+
 TEST(MarkerCsv, FilesAreKnownByTheirNames) {
   const TemporaryFolder folder;
   std::ofstream(folder / "a.CSV") << "a.x,a.y,a.z\n1,2,3\n";
