@@ -395,12 +395,21 @@ drop_motion() {
   until_done 30 title '^bar.obj \* - Sinew$'
   sleep 3
   shot dropped
+  point 1180 308 # the field Scale
+  xdotool click --repeat 2 --delay 60 1
+  sleep 0.6
+  xdotool key ctrl+a
+  xdotool type --delay 20 0.001
+  press Return
+  sleep 1
+  shot aligned
   press shift+Right
   sleep 1
   shot dropped-last
   press ctrl+s
   name "$work/dropped.json"
   until_done 30 test -s "$work/dropped.json"
+  grep -q '"scale": 0.001\b' "$work/dropped.json" || fail "the saved edit has another scale than was typed"
   press ctrl+e
   name "$work/dropped.pc2"
   until_done 60 test -s "$work/dropped.pc2"
