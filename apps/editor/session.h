@@ -65,6 +65,9 @@ struct HandleView {
 /// "walk.0001.obj" as "walk.%04d.obj": the run that a numbered file may be one of; empty where it has no number.
 std::string pattern_of_run(const std::string& path);
 
+/// What is odd about a motion, to tell: a sentence each, and not too many.
+std::vector<std::string> notes_of(const document::Markers& markers);
+
 class Session {
  public:
   /// `methods` must outlive the session (sinew::methods()). `wake` is called from other threads when poll() has

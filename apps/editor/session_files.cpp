@@ -67,6 +67,7 @@ struct Session::Opened {
   document::Project project;
   std::shared_ptr<document::Selector> selector;
   std::map<std::string, document::MotionTime> motions;  ///< by path
+  std::vector<std::string> notes;                       ///< on the motion
   Bounds bounds;
   PointSet finite;
   bool on_disk = true;  ///< the project is what the edit's file says
@@ -119,8 +120,11 @@ void Session::open_now(const std::string& path) {
       throw file_error(path, "an edit with \"inputs\", or its shape opened before", "an edit alone");
     }
     opened->project.inputs = {opened->input_path};
-    if (const document::MarkersEdit* driving = document::driving_markers(opened->project.layers))
-      opened->motions[driving->path] = document::Markers(*driving).time();
+    if (const document::MarkersEdit* driving = document::driving_markers(opened->project.layers)) {
+      const document::Markers markers(*driving);
+      opened->motions[driving->path] = markers.time();
+      opened->notes = notes_of(markers);
+    }
     prepare(*opened);
     if (!tell(1)) throw io::Cancelled{};
     return [this, opened] { show(std::move(*opened)); };
@@ -158,6 +162,7 @@ void Session::show(Opened opened) {
   if (opened.run > 1)
     notify(Severity::Info, name_of(input_path_) + " is one of " + std::to_string(opened.run) +
                                " numbered files. \"Open all frames\" in the menu File plays them.");
+  for (const std::string& note : opened.notes) notify(Severity::Info, note);
   for (const std::string& note : input_->notes) notify(Severity::Info, name_of(input_path_) + ": " + note);
   project_changed();
   ask(SolveOptions::Quality::Final, project());

@@ -30,6 +30,17 @@ std::string names_of_driven(std::span<const Method> methods) {
 
 }  // namespace
 
+std::vector<std::string> notes_of(const Markers& markers) {
+  constexpr std::size_t most = 3;
+  const std::string name = name_of(markers.edit().path);
+  const std::vector<std::string>& notes = markers.notes();
+  std::vector<std::string> out;
+  for (std::size_t i = 0; i < std::min(most, notes.size()); ++i) out.push_back(name + ": " + notes[i]);
+  if (notes.size() > most)
+    out.push_back(fmt::format("{}: {} more such notes, which `sinew info` lists.", name, notes.size() - most));
+  return out;
+}
+
 /// The layer that a motion is for: the chosen one; a new one where there is none yet. Nothing where it can't be driven.
 std::optional<Layer> Session::layer_to_drive(const std::string& path) {
   const std::string is_motion = name_of(path) + " is a motion";
@@ -80,13 +91,7 @@ void Session::take_motion(const Markers& markers) {
   forget_starts(project, layer_);
   if (!refuse([&] { document::check_layers(project.layers, methods_); })) return;
   apply(std::move(project), "Motion " + name_of(edit.path));
-  constexpr std::size_t most = 3;
-  const std::vector<std::string>& notes = markers.notes();
-  for (std::size_t i = 0; i < std::min(most, notes.size()); ++i)
-    notify(Severity::Info, name_of(edit.path) + ": " + notes[i]);
-  if (notes.size() > most)
-    notify(Severity::Info,
-           fmt::format("{}: {} more such notes, which `sinew info` lists.", name_of(edit.path), notes.size() - most));
+  for (const std::string& note : notes_of(markers)) notify(Severity::Info, note);
   if (edit.matches.empty())
     notify(Severity::Info,
            name_of(edit.path) +
