@@ -30,6 +30,16 @@ constexpr const char* plane = R"({ "sinew": 1,
   } ] }
 )";
 
+/// As the plane, by a solid with fewer vertices than the slab has.
+constexpr const char* slab = R"({ "sinew": 1,
+  "layers": [ {
+    "method": "tet",
+    "settings": { "vertices": 8000 },
+    "fixed": [ { "box": [[-0.01, -1, -1], [0.1, 1, 2]] } ],
+    "handles": [ { "points": { "box": [[0.9, -1, -1], [1.01, 1, 2]] }, "move": [-0.12, 0.4, 0] } ]
+  } ] }
+)";
+
 /// The upper end turns by 135 degrees about the bar's own axis.
 constexpr const char* bar = R"({ "sinew": 1,
   "layers": [ {
@@ -42,13 +52,24 @@ constexpr const char* bar = R"({ "sinew": 1,
 )";
 
 /// The upper end turns by 135 degrees; a block in the middle turns as one, and below it the bar is stiffer.
-constexpr const char* bar_tet = R"({ "sinew": 1,
+constexpr const char* bar_rigid = R"({ "sinew": 1,
   "layers": [ {
     "method": "tet",
     "settings": { "vertices": 700, "filling": "inside" },
     "fixed": [ { "box": [[-1, -1, -1], [1, 0.08, 1]] } ],
     "rigid": [ { "box": [[-1, 0.9, -1], [1, 1.2, 1]] } ],
     "stiffness": [ { "points": { "box": [[-1, 0.3, -1], [1, 0.6, 1]] }, "factor": 8 } ],
+    "handles": [ { "points": { "box": [[-1, 1.57, -1], [1, 2, 1]] },
+                   "rotate": { "axis": [0, 1, 0], "degrees": 135, "about": [0, 0, 0] }, "move": [0, 0, 0] } ]
+  } ] }
+)";
+
+/// The upper end turns by 135 degrees about the bar's own axis, by a solid with points inside.
+constexpr const char* bar_tet = R"({ "sinew": 1,
+  "layers": [ {
+    "method": "tet",
+    "settings": { "vertices": 10000, "filling": "inside" },
+    "fixed": [ { "box": [[-1, -1, -1], [1, 0.08, 1]] } ],
     "handles": [ { "points": { "box": [[-1, 1.57, -1], [1, 2, 1]] },
                    "rotate": { "axis": [0, 1, 0], "degrees": 135, "about": [0, 0, 0] }, "move": [0, 0, 0] } ]
   } ] }
@@ -66,11 +87,33 @@ constexpr const char* cactus = R"({ "sinew": 1,
   } ] }
 )";
 
+constexpr const char* cactus_tet = R"({ "sinew": 1,
+  "layers": [ {
+    "method": "tet",
+    "settings": { "vertices": 10000 },
+    "fixed": [ { "box": [[-1, -1, -1], [1, 0.08, 1]] } ],
+    "handles": [ { "points": { "box": [[-0.1, 0.88, -1], [0.1, 2, 1]] },
+                   "rotate": { "axis": [0, 0, 1], "degrees": -70, "about": [0, 0.88, 0] },
+                   "move": [0.4309, -0.1847, 0] } ]
+  } ] }
+)";
+
 /// The upper end bends by 120 degrees, along an arc of the cylinder's length.
 constexpr const char* cylinder = R"({ "sinew": 1,
   "layers": [ {
     "method": "graph",
     "settings": { "nodes": 250, "neighbours": 4 },
+    "fixed": [ { "box": [[-1, -1, -1], [1, 0.05, 1]] } ],
+    "handles": [ { "points": { "box": [[-1, 1.1, -1], [1, 2, 1]] },
+                   "rotate": { "axis": [0, 0, 1], "degrees": -120, "about": [0, 1.1, 0] },
+                   "move": [0.7520, -0.6158, 0] } ]
+  } ] }
+)";
+
+constexpr const char* cylinder_tet = R"({ "sinew": 1,
+  "layers": [ {
+    "method": "tet",
+    "settings": { "vertices": 10000 },
     "fixed": [ { "box": [[-1, -1, -1], [1, 0.05, 1]] } ],
     "handles": [ { "points": { "box": [[-1, 1.1, -1], [1, 2, 1]] },
                    "rotate": { "axis": [0, 0, 1], "degrees": -120, "about": [0, 1.1, 0] },
@@ -138,15 +181,18 @@ constexpr const char* jet = R"({ "sinew": 1,
 }  // namespace
 
 std::string edit_of(const std::string& sample) {
-  static const std::map<std::string, const char*> edits{{"scan", scan},     {"plane", plane},       {"bar", bar},
-                                                        {"cactus", cactus}, {"cylinder", cylinder}, {"splats", splats},
-                                                        {"walk", walk},     {"soup", soup},         {"jet", jet}};
+  static const std::map<std::string, const char*> edits{
+      {"scan", scan},     {"plane", plane}, {"bar", bar},   {"cactus", cactus}, {"cylinder", cylinder},
+      {"splats", splats}, {"walk", walk},   {"soup", soup}, {"jet", jet},       {"slab", slab}};
   const auto found = edits.find(sample);
   return found == edits.end() ? "" : found->second;
 }
 
-std::string tet_edit_of(const std::string& sample) {
-  return sample == "bar" ? bar_tet : "";
+std::vector<std::pair<std::string, std::string>> tet_edits_of(const std::string& sample) {
+  if (sample == "bar") return {{"tet", bar_tet}, {"rigid", bar_rigid}};
+  if (sample == "cactus") return {{"tet", cactus_tet}};
+  if (sample == "cylinder") return {{"tet", cylinder_tet}};
+  return {};
 }
 
 }  // namespace sinew::samples

@@ -80,6 +80,8 @@ constexpr Sample samples[] = {
      "a giraffe, scanned from 22 places"},
     {"plane", [](const std::string& stem, const Options&) { return save_still(stem + ".obj", bumpy_plane()); },
      "a bumpy plane, one side lifted"},
+    {"slab", [](const std::string& stem, const Options&) { return save_still(stem + ".obj", bumpy_slab(120, 120)); },
+     "the bumpy plane as a thin solid, one side lifted"},
     {"bar", [](const std::string& stem, const Options&) { return save_still(stem + ".obj", bar()); }, "a bar, twisted"},
     {"cactus", [](const std::string& stem, const Options&) { return save_still(stem + ".obj", cactus()); },
      "a cactus, bent"},
@@ -103,7 +105,7 @@ void make(const Sample& sample, const Options& options) {
   const std::string stem = (std::filesystem::path(options.folder) / sample.name).string();
   const std::string made = sample.make(stem, options);
   if (const std::string edit = edit_of(sample.name); !edit.empty()) save_text(stem + ".edit.json", edit);
-  if (const std::string edit = tet_edit_of(sample.name); !edit.empty()) save_text(stem + ".tet.edit.json", edit);
+  for (const auto& [name, edit] : tet_edits_of(sample.name)) save_text(stem + "." + name + ".edit.json", edit);
   std::cerr << made << '\n';
 }
 

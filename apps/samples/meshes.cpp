@@ -48,6 +48,19 @@ Shape bumpy_plane() {
   return shape;
 }
 
+Shape bumpy_slab(int columns, int rows) {
+  constexpr int bumps = 12;
+  constexpr double thickness = 0.02, height = 0.015;
+  Shape shape = samples::box({columns, 1, rows}, Vec3(1.0 / columns, thickness, 1.0 / rows));
+  for (Vec3& p : shape.positions) {
+    const double x = p.x() + 0.5, z = p.z() + 0.5;
+    const double bump = std::sin(bumps * std::numbers::pi * x) * std::sin(bumps * std::numbers::pi * z);
+    const bool upper = p.y() > 0.5 * thickness;
+    p = rounded(x, upper ? height * bump * bump : -thickness, z);
+  }
+  return shape;
+}
+
 Shape bar() {
   return box({20, 66, 20}, Vec3::Constant(0.025));
 }

@@ -10,6 +10,9 @@ namespace sinew::samples {
 
 /// 201 x 201 vertices over the square [0, 1] x [0, 1] of x and z, with 12 x 12 bumps: 40,401 vertices.
 Shape bumpy_plane();
+/// The same between its upper side and the plane y = -0.02, of `columns` x `rows` cells and as many below: a thin
+/// solid.
+Shape bumpy_slab(int columns, int rows);
 /// A box of 20 x 66 x 20 cells along y, 0.5 x 1.65 x 0.5: 6,082 vertices.
 Shape bar();
 /// The faces of a box of so many cells of so much each along x, y and z, from y = 0, its middle at x = z = 0.

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <tuple>
+#include <vector>
 
 #include "apps/samples/animal.h"
 #include "apps/samples/dense.h"
@@ -79,6 +81,7 @@ TEST(Samples, MeshesHaveTheCountsOfTheirCases) {
   EXPECT_EQ(cylinder().size(), 4'802u);
   EXPECT_NEAR(double(cactus().size()), 5'000, 100);
   EXPECT_EQ(box({3, 2, 1}, Vec3(1, 2, 4)).size(), 24u);
+  EXPECT_EQ(bumpy_slab(120, 120).size(), 2u * 121 * 121);
   EXPECT_EQ(cylinder(10, 2, 5).size(), 2u + 10 * 9);
 }
 
@@ -87,6 +90,7 @@ TEST(Samples, MeshesAreClosedAndTurnedOutwards) {
                                                               {"cylinder", {cylinder(), 0.0361}},
                                                               {"cactus", {cactus(), 0.031}},
                                                               {"box", {box({3, 2, 1}, Vec3(1, 2, 4)), 3 * 4 * 4}},
+                                                              {"slab", {bumpy_slab(120, 120), 0.02 + 0.015 / 4}},
                                                               {"finer cylinder", {cylinder(96, 12, 176), 0.0361}}};
   for (const auto& [name, made] : cases) {
     const Shape& shape = made.first;
@@ -103,15 +107,26 @@ TEST(Samples, MeshesAreClosedAndTurnedOutwards) {
 }
 
 TEST(Samples, EditsTakeHoldOfTheirShapes) {
-  const std::map<std::string, Shape> shapes{
-      {"scan", sample_animal(79'000)}, {"plane", bumpy_plane()},         {"bar", bar()}, {"cactus", cactus()},
-      {"cylinder", cylinder()},        {"splats", sample_splats(30'000)}};
+  const std::map<std::string, Shape> shapes{{"scan", sample_animal(79'000)},
+                                            {"plane", bumpy_plane()},
+                                            {"bar", bar()},
+                                            {"cactus", cactus()},
+                                            {"cylinder", cylinder()},
+                                            {"splats", sample_splats(30'000)},
+                                            {"slab", bumpy_slab(120, 120)}};
+  std::vector<std::tuple<std::string, std::string, std::string>> edits;  // sample, method, text
   for (const auto& [name, shape] : shapes) {
-    SCOPED_TRACE(name);
-    const document::Project edit = document::parse_edit(name + ".edit.json", edit_of(name));
+    edits.emplace_back(name, name == "slab" ? "tet" : "graph", edit_of(name));
+    for (const auto& [more, text] : tet_edits_of(name)) edits.emplace_back(name, "tet", text);
+  }
+  EXPECT_EQ(edits.size(), shapes.size() + 4);
+  for (const auto& [name, method, text] : edits) {
+    SCOPED_TRACE(name + " " + method);
+    const Shape& shape = shapes.at(name);
+    const document::Project edit = document::parse_edit(name + ".edit.json", text);
     ASSERT_EQ(edit.layers.size(), 1u);
     const document::Layer& layer = edit.layers[0];
-    EXPECT_EQ(layer.method, "graph");
+    EXPECT_EQ(layer.method, method);
     document::Selector selector(std::make_shared<const Shape>(shape));
     const Constraints constraints = selector.constraints(layer, shape.positions);
     ASSERT_EQ(constraints.handles.size(), 1u);

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <functional>
 
+#include "apps/samples/meshes.h"
 #include "deformers/tet.h"
 #include "deformers/tet_constraints.h"
 #include "deformers/tet_energy.h"
@@ -184,8 +185,8 @@ SolidTimes time_solid(const SolidRow& row) {
 }
 
 ColdSolve time_cold_solve(const std::string& name, bool inside) {
-  const BenchmarkEdit edit =
-      name == "plane" ? edit_of_shape(name, std::make_shared<Shape>(bumpy_slab(46, 53))) : benchmark_edit(name);
+  const BenchmarkEdit edit = name == "plane" ? edit_of_shape(name, std::make_shared<Shape>(samples::bumpy_slab(46, 53)))
+                                             : benchmark_edit(name);
   TetOptions options;
   options.mesh.vertices = 1'000'000;
   options.mesh.inside = inside;

@@ -39,24 +39,11 @@ std::span<const SolidRow> solid_rows() {
   return rows;
 }
 
-Shape bumpy_slab(int columns, int rows) {
-  constexpr int bumps = 12;
-  constexpr double thickness = 0.02, height = 0.015;
-  Shape shape = samples::box({columns, 1, rows}, Vec3(1.0 / columns, thickness, 1.0 / rows));
-  for (Vec3& p : shape.positions) {
-    const double x = p.x() + 0.5, z = p.z() + 0.5;
-    const double bump = std::sin(bumps * std::numbers::pi * x) * std::sin(bumps * std::numbers::pi * z);
-    const bool upper = p.y() > 0.5 * thickness;
-    p = Vec3(x, upper ? height * bump * bump : -thickness, z);
-  }
-  return shape;
-}
-
 std::shared_ptr<const Shape> solid_shape(const SolidRow& row) {
   const std::string name = row.name;
   if (name == "Bar") return std::make_shared<Shape>(samples::box({7, 27, 7}, Vec3(0.5 / 7, 1.65 / 27, 0.5 / 7)));
   if (name == "Bumpy bar") return std::make_shared<Shape>(bumpy_bar());
-  if (name == "Plane") return std::make_shared<Shape>(bumpy_slab(46, 53));
+  if (name == "Plane") return std::make_shared<Shape>(samples::bumpy_slab(46, 53));
   if (name == "Cylinder") return std::make_shared<Shape>(samples::cylinder(57, 7, 110));
   return std::make_shared<Shape>(samples::cactus(row.cell));
 }

@@ -25,7 +25,4 @@ std::shared_ptr<const Shape> solid_shape(const SolidRow& row);
 /// The shape of a row, its handle at rest: what dragged() takes.
 Case solid_case(const SolidRow& row);
 
-/// The bumpy plane as a slab between its upper side and the plane y = -0.02: `columns` x `rows` cells.
-Shape bumpy_slab(int columns, int rows);
-
 }  // namespace sinew::benchmarks
