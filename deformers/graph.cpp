@@ -390,8 +390,9 @@ std::unique_ptr<Deformer> make_graph_deformer(std::shared_ptr<const Shape> rest,
 }
 
 Method graph_method() {
-  return {"graph", "A graph of affine maps: bends anything that is points in space.", graph_settings(), make,
-          bind_from_tables};
+  return {"graph",          "A graph of affine maps: bends anything that is points in space.",
+          graph_settings(), make,
+          bind_from_tables, {.nodes = true, .cuts = true}};
 }
 
 }  // namespace sinew

@@ -47,6 +47,9 @@ bool knows_rigid(const Context& c) {
 bool knows_stiffness(const Context& c) {
   return c.session.method() != nullptr && c.session.method()->parts.stiffness;
 }
+bool knows_cuts(const Context& c) {
+  return c.session.method() == nullptr || c.session.method()->parts.cuts;
+}
 bool can_be_rigid(const Context& c) {
   return selected(c) && knows_rigid(c);
 }
@@ -65,6 +68,9 @@ std::string why_not_rigid(const Context& c) {
 }
 std::string why_not_stiff(const Context& c) {
   return why_not_known(c, "Stiffness is", &Method::Parts::stiffness);
+}
+std::string why_not_cut(const Context& c) {
+  return why_not_known(c, "Cuts are", &Method::Parts::cuts);
 }
 bool solid_shown(const Context& c) {
   return layered(c) && c.session.method() != nullptr && c.session.method()->parts.solid && c.view.show_graph;
@@ -193,7 +199,7 @@ const std::array table{
     Command{"tool.brush", "Brush", "Edit/Tool", "C", "Paint the selection.", always, take_tool<Tool::Brush>,
             has_tool<Tool::Brush>},
     Command{"tool.cut", "Cut", "Edit/Tool", "Shift+C", "Draw a line that no influence of the chosen layer passes.",
-            always, take_tool<Tool::Cut>, has_tool<Tool::Cut>},
+            knows_cuts, take_tool<Tool::Cut>, has_tool<Tool::Cut>, false, why_not_cut},
     Command{"tool.smaller", "Smaller brush", "Edit/Tool", "[", "Paint with a smaller brush.", always,
             [](C& c) { set_brush(c, 1 / 1.15); }, nullptr, true},
     Command{"tool.larger", "Larger brush", "Edit/Tool", "]", "Paint with a larger brush.", always,

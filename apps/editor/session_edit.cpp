@@ -246,6 +246,7 @@ void Session::add_cut(std::span<const Vec3> path, const Vec3& depth) {
   cut.depth = depth;
   project.layers[layer_].cuts.push_back(std::move(cut));
   forget_starts(project, layer_);
+  if (!refuse([&] { document::check_layers(project.layers, methods_); })) return;
   apply(std::move(project), "Cut");
 }
 

@@ -63,6 +63,9 @@ void refuse_unknown_parts(const Layer& layer, const Method& method) {
       {"stiffness", method.parts.stiffness, layer.stiffness.size()},
       {"examples", method.parts.examples, layer.examples.size()},
       {"example_weights", method.parts.examples, layer.example_weights.size()},
+      {"cuts", method.parts.cuts, layer.cuts.size()},
+      {"path", method.parts.nodes, layer.path ? 1 : 0},
+      {"nodes", method.parts.nodes, layer.nodes.size()},
       {"tets", method.parts.solid, layer.tets.empty() ? 0 : 1},
       {"markers", method.parts.places, layer.markers ? 1 : 0},
       {"places", method.parts.places, count_places(layer)}};

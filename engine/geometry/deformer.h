@@ -189,6 +189,8 @@ struct Method {
   /// Which parts of an edit it knows, of those that not every method does.
   struct Parts {
     bool rigid = false, stiffness = false, places = false, solid = false, examples = false;
+    bool nodes = false;  ///< StructureWishes::points, as a chain or not
+    bool cuts = false;
   } parts = {};
 };
 

@@ -275,6 +275,28 @@ TEST_F(EditorTet, OfAMethodThatKnowsNoRigidRegionsTheCommandSaysSo) {
   EXPECT_NE(errors_of(session).find("rigid"), std::string::npos);
 }
 
+TEST_F(EditorTet, ALayerOfTetsTakesNoCut) {
+  session.adopt(std::make_shared<const Shape>(samples::bar()), input());
+  ASSERT_TRUE(settle(session));
+  View view;
+  Preferences preferences;
+  Context context{session, view, preferences, [](Request) {}};
+  const Command* cut = find_command("tool.cut");
+  ASSERT_TRUE(cut != nullptr && cut->enabled(context));
+  session.add_layer("tet");
+  EXPECT_FALSE(cut->enabled(context));
+  EXPECT_EQ(cut->why_not(context), "Cuts are for the method graph: this layer's is tet.");
+  const std::vector<Vec3> path{Vec3(-1, 0.8, 1), Vec3(1, 0.8, 1)};
+  session.add_cut(path, Vec3(0, 0, -2));  // past the command
+  EXPECT_TRUE(session.layer()->cuts.empty());
+  EXPECT_NE(errors_of(session).find("cuts"), std::string::npos);
+  session.set_method(0, "graph");
+  session.add_cut(path, Vec3(0, 0, -2));
+  EXPECT_EQ(session.layer()->cuts.size(), 1u);
+  session.set_method(0, "tet");
+  EXPECT_EQ(session.layer()->method, "graph");
+}
+
 TEST_F(EditorTet, AnOpenShapeIsRefusedInOneSentenceAndTheOtherMethodBringsItBack) {
   open(samples::bumpy_plane());
   ASSERT_TRUE(until(session, [&] { return !session.solving(); }));

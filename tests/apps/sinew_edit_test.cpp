@@ -51,6 +51,14 @@ std::vector<std::pair<std::string, std::string>> mistakes_of_meaning() {
        "expected no \"stiffness\" for method graph, found 1"},
       {"{\"sinew\": 1, \"layers\": [@{\"method\": \"graph\", \"examples\": [\"a.obj\"]}]}",
        "expected no \"examples\" for method graph, found 1"},
+      {"{\"sinew\": 1, \"layers\": [@{\"method\": \"tet\", \"cuts\": [{\"path\": [[0, 0, 0], [1, 0, 0]], \"depth\": "
+       "[0, "
+       "0, 1]}]}]}",
+       "expected no \"cuts\" for method tet, found 1"},
+      {"{\"sinew\": 1, \"layers\": [@{\"method\": \"tet\", \"path\": {\"every\": 2}}]}",
+       "expected no \"path\" for method tet, found 1"},
+      {"{\"sinew\": 1, \"layers\": [@{\"method\": \"tet\", \"nodes\": [{\"indices\": [0]}]}]}",
+       "expected no \"nodes\" for method tet, found 1"},
   };
 }
 

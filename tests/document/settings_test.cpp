@@ -65,6 +65,15 @@ TEST(Settings, WhatNoMethodKnowsYetIsRefusedNotIgnored) {
   layer = toy_layer();
   layer.examples = {"a.obj"};
   EXPECT_EQ(message_of(layer), "e.json:1:2: expected no \"examples\" for method toy, found 1");
+  layer = toy_layer();
+  layer.cuts.resize(3);
+  EXPECT_EQ(message_of(layer), "e.json:1:2: expected no \"cuts\" for method toy, found 3");
+  layer = toy_layer();
+  layer.path.emplace();
+  EXPECT_EQ(message_of(layer), "e.json:1:2: expected no \"path\" for method toy, found 1");
+  layer = toy_layer();
+  layer.nodes.resize(2);
+  EXPECT_EQ(message_of(layer), "e.json:1:2: expected no \"nodes\" for method toy, found 2");
 }
 
 TEST(Settings, FromTheCommandLine) {
