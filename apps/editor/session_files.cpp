@@ -121,7 +121,7 @@ void Session::open_now(const std::string& path) {
     }
     opened->project.inputs = {opened->input_path};
     if (const document::MarkersEdit* driving = document::driving_markers(opened->project.layers)) {
-      const document::Markers markers(*driving);
+      const document::Markers markers(*driving, *opened->shape);
       opened->motions[driving->path] = markers.time();
       opened->notes = notes_of(markers);
     }

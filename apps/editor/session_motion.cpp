@@ -69,7 +69,7 @@ void Session::open_motion(const std::string& path) {
     MarkersEdit edit = old ? *old : document::markers_over(path, bounds);
     edit.path = path;
     edit.place = {};
-    const auto markers = std::make_shared<const Markers>(edit);
+    const auto markers = std::make_shared<const Markers>(edit, *input);
     if (!tell(1)) throw io::Cancelled{};
     return [this, markers, input] {
       if (input == input_) take_motion(*markers);

@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "engine/document/settings.h"
+#include "engine/geometry/bounds.h"
 #include "engine/geometry/error.h"
+#include "engine/geometry/surface_fit.h"
+#include "engine/io/text.h"
 
 namespace sinew::document {
 
@@ -19,6 +23,12 @@ std::size_t number_of(const io::Trajectories& motion, const std::string& name) {
   return found == motion.names.end() ? missing : static_cast<std::size_t>(found - motion.names.begin());
 }
 
+/// With fewer markers than this, or fewer of them near the body, a wrong fit is as good as the right one: of markers
+/// anywhere on the armadillo, a horse, the bunny and a cactus, 146 of 160 fits of 24 markers were right and 159 of 160
+/// of 32; of random points never more than 68 % came near.
+constexpr std::size_t fewest_laid = 24;
+constexpr double least_near = 0.85;
+
 std::string some_names(const io::Trajectories& motion) {
   constexpr std::size_t most = 12;
   std::string out;
@@ -29,7 +39,7 @@ std::string some_names(const io::Trajectories& motion) {
 
 }  // namespace
 
-Markers::Markers(const MarkersEdit& edit) : edit_(edit), motion_(io::read_motion(edit.path)) {
+Markers::Markers(const MarkersEdit& edit, const Shape& body) : edit_(edit), motion_(io::read_motion(edit.path)) {
   for (const std::string& note : motion_.notes) notes_.push_back(note);
   for (const std::vector<Vec3>& points : motion_.frames) {
     gap_.emplace_back(points.size());
@@ -59,7 +69,7 @@ Markers::Markers(const MarkersEdit& edit) : edit_(edit), motion_(io::read_motion
   if (const std::size_t lost = named - used_.size(); lost > 0)
     notes_.push_back(std::to_string(lost) + (lost == 1 ? " marker is" : " markers are") + " not seen in frame " +
                      std::to_string(first) + " and " + (lost == 1 ? "is" : "are") + " not used.");
-  align();
+  align(body);
   for (const std::size_t i : used_) places_.push_back(aligned(motion_.frames[first_][i]));
   if (!edit.corresponding) return;
   used_.clear();
@@ -70,9 +80,12 @@ Markers::Markers(const MarkersEdit& edit) : edit_(edit), motion_(io::read_motion
   }
 }
 
-/// The similarity nearest to the matches in least squares [Umeyama 1991], or what the edit says.
-void Markers::align() {
-  if (edit_.matches.empty()) {
+void Markers::align(const Shape& body) {
+  if (laid_on_body(edit_)) {
+    lay_on(body);
+  } else if (!edit_.matches.empty()) {
+    align_by_matches();
+  } else {
     scale_ = edit_.scale.value_or(1);
     if (edit_.rotate) {
       const double radians = edit_.rotate->degrees * (std::numbers::pi / 180);
@@ -80,8 +93,35 @@ void Markers::align() {
       if (edit_.rotate->about) t_ = scale_ * (*edit_.rotate->about - R_ * *edit_.rotate->about);
     }
     if (edit_.move) t_ += *edit_.move;
-    return;
   }
+}
+
+void Markers::lay_on(const Shape& body) {
+  const auto no_fit = [&](const std::string& expected, const std::string& found) {
+    return place_error(edit_.place, "markers", expected, found);
+  };
+  if (used_.size() < fewest_laid)
+    throw no_fit("\"matches\" or \"move\", or at least " + std::to_string(fewest_laid) + " markers to lay on the shape",
+                 std::to_string(used_.size()));
+  std::vector<Vec3> points;
+  for (const std::size_t i : used_) points.push_back(motion_.frames[first_][i]);
+  const std::optional<SurfaceFit> fit = fit_to_surface(points, body, edit_.scale);
+  const auto percent = [](double share) { return std::to_string(std::lround(100 * share)) + " %"; };
+  if (!fit || fit->near < least_near)
+    throw no_fit("markers of which " + percent(least_near) +
+                     " come near the shape when they are scaled, turned and moved, or \"matches\"",
+                 fit ? percent(fit->near) : "markers on a line");
+  scale_ = fit->map.scale;
+  R_ = fit->map.R;
+  t_ = fit->map.t + body.origin;
+  fit_rms_ = fit->rms * bounds_of(body.positions).diagonal();
+  notes_.push_back(std::to_string(used_.size()) + " markers were laid on the shape, scaled by " +
+                   io::shortest(static_cast<float>(scale_)) + "; " + percent(fit->near) +
+                   " of them lie within 2 % of its diagonal.");
+}
+
+/// The similarity nearest to the matches in least squares [Umeyama 1991].
+void Markers::align_by_matches() {
   const auto n = static_cast<Eigen::Index>(edit_.matches.size());
   Eigen::Matrix3Xd from(3, n), to(3, n);
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -107,15 +147,18 @@ void Markers::align() {
   fit_rms_ = std::sqrt((((scale_ * R_ * from).colwise() + t_) - to).squaredNorm() / static_cast<double>(n));
 }
 
+bool laid_on_body(const MarkersEdit& edit) {
+  return edit.matches.empty() && !edit.rotate && !edit.move;
+}
+
 std::size_t Markers::row(int frame) const {
   const long long at = static_cast<long long>(frame) - motion_.first_frame;
   return at >= 0 && at < static_cast<long long>(motion_.frames.size()) ? static_cast<std::size_t>(at) : missing;
 }
 
-MotionTime Markers::time() const {
-  MotionTime out{{}, motion_.rate};
-  for (std::size_t f = 0; f < motion_.frames.size(); ++f)
-    out.frames.push_back(motion_.first_frame + static_cast<int>(f));
+MotionTime time_of(const io::Trajectories& motion) {
+  MotionTime out{std::vector<int>(motion.frames.size()), motion.rate};
+  std::iota(out.frames.begin(), out.frames.end(), motion.first_frame);
   return out;
 }
 
@@ -200,7 +243,7 @@ const MarkersEdit* driving_markers(std::span<const Layer> layers) {
 Sequence with_frames_of_markers(const Sequence& input, std::span<const Layer> layers) {
   const MarkersEdit* driving = driving_markers(layers);
   if (input.frames.size() > 1 || driving == nullptr) return input;
-  return over_time(input, Markers(*driving).time());
+  return over_time(input, time_of(io::read_motion(driving->path)));
 }
 
 }  // namespace sinew::document

@@ -19,15 +19,17 @@ struct MotionTime {
   std::vector<int> frames;  ///< ascending
   double rate = 0;          ///< frames a second; 0: unknown
 };
+MotionTime time_of(const io::Trajectories& motion);
 
 class Markers {
  public:
-  /// Reads the file, bridges gaps, aligns. Throws InputError: the file, a name that it has not, a frame that it has
-  /// not, no marker seen in the first frame, matches on a line.
-  explicit Markers(const MarkersEdit& edit);
+  /// Reads the file, bridges gaps, aligns with `body`: the shape that is driven, as it is in the first frame. Throws
+  /// InputError: the file, a name that it has not, a frame that it has not, no marker seen in the first frame, matches
+  /// on a line; where nothing says how they lie, fewer than 24 markers, or markers that lie nowhere on the body.
+  Markers(const MarkersEdit& edit, const Shape& body);
 
   const MarkersEdit& edit() const { return edit_; }
-  MotionTime time() const;
+  MotionTime time() const { return time_of(motion_); }
 
   /// Places in the frame that was aligned, and where they are at `frame`, of the markers seen in both; relative to
   /// `origin`. At a frame that the motion has not, none.
@@ -45,12 +47,15 @@ class Markers {
   Picture picture(int frame, const Vec3& origin) const;
 
   double scale() const { return scale_; }
-  double fit_rms() const { return fit_rms_; }  ///< distance of the matches, in the shape's unit; 0 without
+  /// Distance of the matches, or of all markers from the body where they were laid on it, in the shape's unit; else 0.
+  double fit_rms() const { return fit_rms_; }
   /// What was bridged, released or left out, one sentence each.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  void align();
+  void align(const Shape& body);
+  void align_by_matches();
+  void lay_on(const Shape& body);
   std::size_t row(int frame) const;
   Vec3 nearest_seen(std::size_t row, std::size_t point) const;
   Vec3 aligned(const Vec3& p) const { return scale_ * (R_ * p) + t_; }
@@ -77,6 +82,9 @@ Sequence over_time(const Sequence& still, const MotionTime& time);
 
 /// The markers whose motion gives a still its frames: of the first layer that is on and has some; null where none has.
 const MarkersEdit* driving_markers(std::span<const Layer> layers);
+
+/// Whether nothing says how the markers lie, so that they are laid on the body.
+bool laid_on_body(const MarkersEdit& edit);
 
 /// The input with a frame for each of the motion that drives a layer; as it is where no layer that is on has markers,
 /// or it has frames of its own.

@@ -151,7 +151,7 @@ struct MarkerMatch {
 
 /// Captured markers, or the joints of a skeleton, as handles: each pulls the place along that it has in the first
 /// frame. Aligned with the shape there: p -> scale R p + move, by the matches where there are any (at least three),
-/// else as given.
+/// else by `rotate` and `move` where there are; without any of these the markers are laid on the shape (surface_fit.h).
 /// Where the shape stands in another pose than the markers, `corresponding` pulls the places of the matches themselves,
 /// and no other markers.
 struct MarkersEdit {
@@ -160,7 +160,7 @@ struct MarkersEdit {
   std::vector<std::string> only;  ///< names of those that are used; empty: all
   std::vector<MarkerMatch> matches;
   bool corresponding = false;
-  std::optional<double> scale;  ///< absent: fitted to the matches; without these 1
+  std::optional<double> scale;  ///< absent: fitted to the matches or the shape; with `rotate` or `move` 1
   std::optional<Rotation> rotate;
   std::optional<Vec3> move;
   int bridge = 12;  ///< gaps of up to so many frames are bridged; in longer ones the marker is released

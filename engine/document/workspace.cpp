@@ -192,7 +192,7 @@ bool Workspace::bring_made(std::size_t i, int frame) {
   kept.layer = layer;
   if (!layer.markers) kept.markers = nullptr;
   if (layer.markers && (kept.markers == nullptr || kept.markers->edit() != *layer.markers))
-    kept.markers = std::make_shared<const Markers>(*layer.markers);
+    kept.markers = std::make_shared<const Markers>(*layer.markers, *kept.base);
   const std::shared_ptr<const Shape> rest = rest_of(i, frame);
   if (rest == nullptr) return false;
   std::optional<Wanted> asked = wanted(i, frame, *rest);

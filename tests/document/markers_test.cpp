@@ -11,7 +11,9 @@
 #include "engine/document/edit.h"
 #include "engine/document/evaluate.h"
 #include "engine/geometry/error.h"
+#include "engine/io/io.h"
 #include "tests/deformers/solids.h"
+#include "tests/geometry/lobed_body.h"
 
 namespace sinew::document {
 namespace {
@@ -54,9 +56,14 @@ class MarkersTest : public testing::Test {
     for (int m = 0; m < 3; ++m) out.matches.push_back({std::string(1, static_cast<char>('A' + m)), place(m), {}});
     return out;
   }
-  std::string mistake(const MarkersEdit& edit) const {
+  static void save(const std::string& path, const io::Trajectories& motion) {
+    io::WriteReport report;
+    io::save_bytes(path, io::motion_format_of(path)->write(motion, report), true);
+  }
+  std::string mistake(const MarkersEdit& edit) const { return mistake(edit, *shape_); }
+  static std::string mistake(const MarkersEdit& edit, const Shape& body) {
     try {
-      const Markers markers(edit);
+      const Markers markers(edit, body);
     } catch (const InputError& error) {
       return error.what();
     }
@@ -68,7 +75,7 @@ class MarkersTest : public testing::Test {
 };
 
 TEST_F(MarkersTest, AreAlignedByThreeMatches) {
-  const Markers markers(edit());
+  const Markers markers(edit(), *shape_);
   EXPECT_NEAR(markers.scale(), 1e-3, 1e-12);
   EXPECT_LT(markers.fit_rms(), 1e-9);
   const Handle handle = markers.handle(3, Vec3(1, 2, 3));
@@ -81,10 +88,10 @@ TEST_F(MarkersTest, AreAlignedByThreeMatches) {
 }
 
 TEST_F(MarkersTest, GapsAreBridgedOrTheMarkerIsReleasedAndBothAreTold) {
-  EXPECT_EQ(Markers(edit()).handle(5, Vec3::Zero()).places.size(), 5u);
+  EXPECT_EQ(Markers(edit(), *shape_).handle(5, Vec3::Zero()).places.size(), 5u);
   MarkersEdit strict = edit();
   strict.bridge = 2;
-  const Markers markers(strict);
+  const Markers markers(strict, *shape_);
   EXPECT_EQ(markers.handle(5, Vec3::Zero()).places.size(), 4u);
   EXPECT_EQ(markers.handle(7, Vec3::Zero()).places.size(), 5u);
   ASSERT_EQ(markers.notes().size(), 1u);
@@ -93,16 +100,16 @@ TEST_F(MarkersTest, GapsAreBridgedOrTheMarkerIsReleasedAndBothAreTold) {
 
 TEST_F(MarkersTest, APictureTellsApartWhatWasNotSeen) {
   const Vec3 origin(1, 2, 3);
-  EXPECT_EQ(Markers(edit()).picture(3, origin).seen.size(), 5u);
-  const Markers::Picture bridged = Markers(edit()).picture(5, origin);
+  EXPECT_EQ(Markers(edit(), *shape_).picture(3, origin).seen.size(), 5u);
+  const Markers::Picture bridged = Markers(edit(), *shape_).picture(5, origin);
   ASSERT_EQ(bridged.unseen.size(), 1u);
   EXPECT_LT((bridged.unseen[0] + origin - place(4) - Vec3(0.08, 0, 0)).norm(), 1e-6);
   MarkersEdit strict = edit();
   strict.bridge = 2;
-  const Markers::Picture released = Markers(strict).picture(6, origin);
+  const Markers::Picture released = Markers(strict, *shape_).picture(6, origin);
   ASSERT_EQ(released.unseen.size(), 1u);
   EXPECT_LT((released.unseen[0] + origin - place(4) - Vec3(0.04, 0, 0)).norm(), 1e-6) << "not where it was in frame 3";
-  EXPECT_TRUE(Markers(edit()).picture(9, origin).seen.empty());
+  EXPECT_TRUE(Markers(edit(), *shape_).picture(9, origin).seen.empty());
 }
 
 TEST_F(MarkersTest, WithoutMatchesTheyAreLaidOverTheShape) {
@@ -110,7 +117,7 @@ TEST_F(MarkersTest, WithoutMatchesTheyAreLaidOverTheShape) {
   const MarkersEdit over = markers_over((folder_ / "m.csv").string(), shape);
   EXPECT_TRUE(over.matches.empty());
   Bounds bounds;
-  Markers(over).picture(1, Vec3::Zero()).add_to(bounds);
+  Markers(over, *shape_).picture(1, Vec3::Zero()).add_to(bounds);
   EXPECT_NEAR(bounds.diagonal(), shape.diagonal(), 1e-9);
   EXPECT_LT((bounds.centre() - shape.centre()).norm(), 1e-9);
   Eigen::Index longest = 0;
@@ -122,7 +129,7 @@ TEST_F(MarkersTest, CorrespondingOnesPullTheirMatches) {
   MarkersEdit pulls = edit();
   pulls.corresponding = true;
   pulls.matches.push_back({"E", Vec3(0.2, 0.2, 0.5), {}});
-  const Handle handle = Markers(pulls).handle(1, Vec3::Zero());
+  const Handle handle = Markers(pulls, *shape_).handle(1, Vec3::Zero());
   ASSERT_EQ(handle.places.size(), 4u);
   EXPECT_EQ(handle.places[3], Vec3(0.2, 0.2, 0.5));
   EXPECT_GT((handle.targets[3] - handle.places[3]).norm(), 0.005);
@@ -142,6 +149,49 @@ TEST_F(MarkersTest, MistakesHaveTheirSentences) {
   other.matches[2].place = Vec3(0.5, 0, 0);
   EXPECT_NE(mistake(other).find("found a line"), std::string::npos) << mistake(other);
   EXPECT_EQ(mistake(edit()), "none");
+}
+
+/// Markers anywhere on a body, told of by nothing but where they are in the first frame.
+TEST_F(MarkersTest, WithoutMatchesTheyAreLaidOnTheBody) {
+  auto body = std::make_shared<Shape>(test::lobed_body());
+  body->origin = Vec3(1000, -2000, 500);
+  const std::vector<Vec3> places = test::places_on(*body, 40, 7);
+  io::Trajectories motion;
+  motion.frames.resize(2);
+  for (std::size_t m = 0; m < places.size(); ++m) {
+    motion.names.push_back("M" + std::to_string(m));
+    for (int f = 0; f < 2; ++f)
+      motion.frames[static_cast<std::size_t>(f)].push_back(captured(places[m] + 0.1 * f * Vec3(0, 0, 1)));
+  }
+  MarkersEdit laid;
+  laid.path = (folder_ / "laid.csv").string();
+  save(laid.path, motion);
+  const Markers markers(laid, *body);
+  EXPECT_NEAR(markers.scale(), 1e-3, 1e-8);
+  EXPECT_LT(markers.fit_rms(), 1e-5);
+  ASSERT_EQ(markers.notes().size(), 1u);
+  EXPECT_EQ(markers.notes()[0].rfind("40 markers were laid on the shape, scaled by 0.001; 100 %", 0), 0u)
+      << markers.notes()[0];
+  const Handle handle = markers.handle(2, body->origin);
+  ASSERT_EQ(handle.places.size(), places.size());
+  for (std::size_t m = 0; m < places.size(); ++m) {
+    EXPECT_LT((handle.places[m] - places[m]).norm(), 1e-4);
+    EXPECT_LT((handle.targets[m] - places[m] - Vec3(0, 0, 0.1)).norm(), 1e-4);
+  }
+
+  // Where something is said it holds.
+  MarkersEdit said = laid;
+  said.move = Vec3(0, 0, 0);
+  EXPECT_EQ(Markers(said, *body).handle(1, Vec3::Zero()).places[3], motion.frames[0][3]);
+
+  // A few tell nothing, and a cloud lies nowhere.
+  MarkersEdit few = laid;
+  few.only.assign(motion.names.begin(), motion.names.begin() + 20);
+  EXPECT_NE(mistake(few, *body).find("at least 24 markers to lay on the shape, found 20"), std::string::npos)
+      << mistake(few, *body);
+  for (std::size_t m = 0; m < places.size(); ++m) motion.frames[0][m] *= 0.05 + 0.9 * random_unit(1, m);
+  save(laid.path, motion);
+  EXPECT_NE(mistake(laid, *body).find("or \"matches\", found "), std::string::npos) << mistake(laid, *body);
 }
 
 TEST_F(MarkersTest, DriveASolidFrameByFrame) {

@@ -7,7 +7,10 @@
 #include "engine/document/evaluate.h"
 #include "engine/document/markers.h"
 #include "engine/geometry/bounds.h"
+#include "engine/geometry/error.h"
+#include "engine/geometry/surface_fit.h"
 #include "engine/io/io.h"
+#include "tests/geometry/lobed_body.h"
 #include "tests/shared_data.h"
 
 namespace sinew::document {
@@ -93,6 +96,45 @@ TEST(RealMotion, ADanceOfFortyMarkersDrivesABody) {
     EXPECT_LT(bent.reports[0].handle_rms, 1e-3) << frame;
     EXPECT_GT(bent.reports[0].handle_rms, 0) << frame;
     EXPECT_LT(bent.reports[0].quality.edge_rms, 0.4) << frame;
+  }
+}
+
+TEST(RealMotion, ADancerIsNotLaidOnABodyThatStandsInAnotherPose) {
+  SHARED_DATA(data, "mocap");
+  const auto body = io::read((data.parent_path() / "meshes" / "armadillo.obj").string());
+  MarkersEdit edit;
+  edit.path = (data / "c3d" / "Dance.c3d").string();
+  for (const int first : {1, 100, 200, 300, 400}) {
+    edit.first = first;
+    try {
+      const Markers markers(edit, *body);
+      ADD_FAILURE() << first << ": " << markers.notes().back();
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("markers of which 85 % come near the shape"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
+TEST(RealMotion, MarkersOnARealBodyAreLaidOnItAgain) {
+  SHARED_DATA(data, "meshes");
+  for (const char* name : {"armadillo.obj", "horse_quad.obj", "bunny.off"}) {
+    const auto body = io::read((data / name).string());
+    const double diagonal = bounds_of(body->positions).diagonal();
+    std::size_t right = 0;
+    constexpr std::size_t rounds = 5;
+    for (std::uint64_t seed = 1; seed <= rounds; ++seed) {
+      const std::vector<Vec3> places = test::places_on(*body, 40, seed);
+      std::vector<Vec3> captured;
+      for (const Vec3& p : places) captured.push_back(1000 * Vec3(p.z(), p.x(), p.y()) + Vec3(30, -20, 100));
+      const auto fit = fit_to_surface(captured, *body, std::nullopt);
+      ASSERT_TRUE(fit.has_value());
+      double most = 0;
+      for (std::size_t i = 0; i < places.size(); ++i)
+        most = std::max(most, (fit->map(captured[i]) - places[i]).norm() / diagonal);
+      if (most < 2e-4) ++right;
+    }
+    EXPECT_EQ(right, rounds) << name;
   }
 }
 
