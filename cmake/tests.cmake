@@ -18,6 +18,8 @@ sinew_tests(test_geometry tests/geometry/*.cpp sinew_geometry)
 sinew_tests(test_io tests/io/*.cpp sinew_io)
 sinew_tests(test_document tests/document/*.cpp sinew_document sinew_deformers)
 sinew_tests(test_deformers tests/deformers/*.cpp sinew_deformers sinew_io sinew_samples)
+# What the benchmarks compare with is tested where the methods are.
+target_sources(test_deformers PRIVATE ${CMAKE_SOURCE_DIR}/tests/benchmarks/mesh_ik.cpp)
 sinew_tests(test_samples tests/apps/samples*_test.cpp sinew_samples sinew_document)
 sinew_tests(test_editor_core tests/apps/editor_core*_test.cpp sinew_editor_core sinew_samples)
 add_dependencies(test_editor_core sinew-tets)
