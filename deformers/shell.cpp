@@ -148,8 +148,9 @@ class ShellDeformer final : public Deformer {
       poses.push_back(coarse_ ? coarse_->coarse_of(pose) : pose);
       for (Vec3& p : poses.back()) p = unit_.apply(p);
     }
-    solver_ = std::make_unique<ShellSolver>(std::move(poses), coarse_ ? coarse_->triangles() : mesh_.triangles,
-                                            options_.stiffness);
+    solver_ = std::make_unique<ShellSolver>(
+        std::move(poses), coarse_ ? coarse_->triangles() : mesh_.triangles, options_.stiffness,
+        coarse_ && !mesh_.source.empty() ? coarse_->coarse_of(mesh_.source) : mesh_.source);
   }
 
   /// Points of vertices follow these; those on no face the nearest triangle.
@@ -363,7 +364,7 @@ std::unique_ptr<Deformer> make(std::shared_ptr<const Shape> rest, const Settings
   ShellOptions options;
   options.vertices = static_cast<std::size_t>(value("vertices"));
   options.stiffness = {value("stretch"), value("bend"), value("volume"), value("stiffness") == 1};
-  return make_shell_deformer(std::move(rest), wishes.examples, options, progress);
+  return make_shell_deformer(std::move(rest), wishes.examples, options, progress, wishes.examples_of.get());
 }
 
 SkinWeights bind_from_tables(const std::vector<Deformer::Table>& binding, std::span<const Vec3> points,
@@ -375,9 +376,9 @@ SkinWeights bind_from_tables(const std::vector<Deformer::Table>& binding, std::s
 
 std::unique_ptr<Deformer> make_shell_deformer(std::shared_ptr<const Shape> rest,
                                               std::span<const std::shared_ptr<const Shape>> examples,
-                                              const ShellOptions& options,
-                                              const std::function<bool(double)>& progress) {
-  ShellMesh mesh = shell_mesh_of(*rest, examples);
+                                              const ShellOptions& options, const std::function<bool(double)>& progress,
+                                              const Shape* source) {
+  ShellMesh mesh = shell_mesh_of(*rest, examples, source);
   if (progress && !progress(0.1)) return nullptr;
   std::unique_ptr<ShellCoarse> coarse;
   if (options.vertices > 0 && mesh.size() > 2 * options.vertices) {

@@ -21,11 +21,12 @@ struct ShellOptions {
 };
 
 /// Examples correspond to the shape (shell_mesh.h). Throws InputError where there is no surface, or an example does not
-/// correspond. Null where progress said false.
+/// correspond. Null where progress said false. `source`: what the examples are poses of; null: the shape itself.
 std::unique_ptr<Deformer> make_shell_deformer(std::shared_ptr<const Shape> rest,
                                               std::span<const std::shared_ptr<const Shape>> examples,
                                               const ShellOptions& options,
-                                              const std::function<bool(double)>& progress = {});
+                                              const std::function<bool(double)>& progress = {},
+                                              const Shape* source = nullptr);
 
 /// The row of the methods table.
 Method shell_method();

@@ -59,21 +59,32 @@ std::size_t entry_of(const BlockMatrix& H, Index row, Index column) {
 }  // namespace
 
 ShellEnergy::ShellEnergy(std::span<const std::vector<Vec3>> poses, std::span<const Triangle> triangles,
-                         ShellStiffness stiffness)
+                         ShellStiffness stiffness, std::span<const Vec3> source)
     : triangles_(triangles.begin(), triangles.end()), edges_(shell_edges(triangles)) {
   CHECK(!poses.empty(), poses.size());
   const bool closed = bounds_a_volume(triangles);
-  for (std::size_t k = 0; k < poses.size(); ++k) {
+  for (const std::vector<Vec3>& pose : poses) {
     lengths_.emplace_back();
     angles_.emplace_back();
-    measure(poses[k], lengths_.back(), angles_.back());
-    volumes_.push_back(closed ? volume_of(poses[k], triangles_) : 0);
-    if (k == 0) continue;
+    measure(pose, lengths_.back(), angles_.back());
+    volumes_.push_back(closed ? volume_of(pose, triangles_) : 0);
+  }
+  std::vector<double> lengths = lengths_[0], angles = angles_[0];
+  double volume = volumes_[0];
+  if (!source.empty()) {
+    lengths.clear();
+    angles.clear();
+    measure(source, lengths, angles);
+    volume = closed ? volume_of(source, triangles_) : 0;
+  }
+  for (std::size_t k = 1; k < poses.size(); ++k) {
     for (std::size_t e = 0; e < edges_.size(); ++e) {
-      lengths_[k][e] -= lengths_[0][e];
-      angles_[k][e] -= angles_[0][e];
+      const double share = source.empty() ? 1 : lengths[e] > 0 ? lengths_[0][e] / lengths[e] : 0;
+      lengths_[k][e] = share * (lengths_[k][e] - lengths[e]);
+      angles_[k][e] -= angles[e];
     }
-    volumes_[k] -= volumes_[0];
+    const double share = source.empty() ? 1 : volume != 0 ? volumes_[0] / volume : 0;
+    volumes_[k] = share * (volumes_[k] - volume);
   }
   weigh(poses[0], stiffness);
   if (stiffness.learned && poses.size() > 1) learn();

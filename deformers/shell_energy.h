@@ -73,8 +73,10 @@ class ShellEnergy {
     double total() const { return stretch + bend + volume + tie; }
   };
 
-  /// Poses: at rest, then the examples.
-  ShellEnergy(std::span<const std::vector<Vec3>> poses, std::span<const Triangle> triangles, ShellStiffness stiffness);
+  /// Poses: at rest, then the examples. With a `source` these are poses of that: an edge changes by as large a share of
+  /// its length, and by as much of its angle, as there (deformation transfer).
+  ShellEnergy(std::span<const std::vector<Vec3>> poses, std::span<const Triangle> triangles, ShellStiffness stiffness,
+              std::span<const Vec3> source = {});
 
   std::size_t examples() const { return lengths_.size() - 1; }
   const std::vector<ShellEdge>& edges() const { return edges_; }

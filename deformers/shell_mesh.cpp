@@ -17,7 +17,8 @@ std::string counted(std::size_t count, const char* one, const char* many) {
 
 void require_correspondence(const Shape& rest, const Shape& example, std::size_t number) {
   if (const std::string difference = difference_of_faces(rest, example); !difference.empty())
-    throw InputError("example " + std::to_string(number) + " does not correspond to the rest shape: " + difference);
+    throw InputError((number > 0 ? "example " + std::to_string(number) : "what the examples are poses of") +
+                     " does not correspond to the rest shape: " + difference);
 }
 
 /// The class of each point: points at the same place in every pose share one, numbered by their lowest point.
@@ -58,13 +59,18 @@ void compact(ShellMesh& mesh) {
 
 }  // namespace
 
-ShellMesh shell_mesh_of(const Shape& rest, std::span<const std::shared_ptr<const Shape>> examples) {
+ShellMesh shell_mesh_of(const Shape& rest, std::span<const std::shared_ptr<const Shape>> examples,
+                        const Shape* source) {
   ShellMesh mesh;
   std::vector<std::vector<Vec3>> poses{rest.positions};
   for (std::size_t k = 0; k < examples.size(); ++k) {
     require_correspondence(rest, *examples[k], k + 1);
     poses.push_back(examples[k]->positions);
     for (Vec3& p : poses.back()) p += examples[k]->origin - rest.origin;
+  }
+  if (source != nullptr) {
+    require_correspondence(rest, *source, 0);
+    poses.push_back(source->positions);
   }
   mesh.vertex_of_point = shared_vertices(poses, mesh.point_of_vertex);
 
@@ -90,6 +96,10 @@ ShellMesh shell_mesh_of(const Shape& rest, std::span<const std::shared_ptr<const
   for (const std::vector<Vec3>& pose : poses) {
     mesh.poses.emplace_back();
     for (const Index i : mesh.point_of_vertex) mesh.poses.back().push_back(pose[i]);
+  }
+  if (source != nullptr) {
+    mesh.source = std::move(mesh.poses.back());
+    mesh.poses.pop_back();
   }
   if (dropped > 0)
     mesh.notes.push_back(counted(dropped, " triangle was", " triangles were") +

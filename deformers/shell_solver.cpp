@@ -114,10 +114,11 @@ struct ShellSolver::Model {
 };
 
 ShellSolver::ShellSolver(std::vector<std::vector<Vec3>> poses, std::vector<Triangle> triangles,
-                         ShellStiffness stiffness)
+                         ShellStiffness stiffness, std::vector<Vec3> source)
     : poses_(std::move(poses)),
+      own_poses_(source.empty()),
       triangles_(std::move(triangles)),
-      energy_(poses_, triangles_, stiffness),
+      energy_(poses_, triangles_, stiffness, source),
       model_(std::make_unique<Model>(*this)),
       x_(rest()),
       alpha_(poses_.size() - 1, 0) {
@@ -192,7 +193,8 @@ void ShellSolver::lay_free_parts() {
       if (part_[v] != part) continue;
       from.push_back(x_[v]);
       to.push_back(poses_[0][v]);
-      for (std::size_t k = 0; k < alpha_.size(); ++k) to.back() += alpha_[k] * (poses_[k + 1][v] - poses_[0][v]);
+      for (std::size_t k = 0; own_poses_ && k < alpha_.size(); ++k)
+        to.back() += alpha_[k] * (poses_[k + 1][v] - poses_[0][v]);
     }
     const Affine fit = rigid_fit(from, to);
     for (std::size_t v = 0; v < x_.size(); ++v)

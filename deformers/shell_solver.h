@@ -9,7 +9,8 @@
 ///   (section 6.2)
 ///
 /// Held vertices are no unknowns. A part of the surface of which nothing is held or tied rests, unless there are
-/// examples; then it takes their shape, and is laid over the blend of their positions by a rigid fit.
+/// examples; then it takes their shape, and is laid over the blend of their positions by a rigid fit (over the rest
+/// shape, where they are poses of another).
 
 #include <functional>
 #include <memory>
@@ -34,7 +35,9 @@ struct ShellHeld {
 class ShellSolver {
  public:
   /// Poses in normalised coordinates: at rest, then the examples.
-  ShellSolver(std::vector<std::vector<Vec3>> poses, std::vector<Triangle> triangles, ShellStiffness stiffness);
+  /// `source` as of ShellEnergy.
+  ShellSolver(std::vector<std::vector<Vec3>> poses, std::vector<Triangle> triangles, ShellStiffness stiffness,
+              std::vector<Vec3> source = {});
   ~ShellSolver();
 
   /// Analyses the pattern where what is held changed.
@@ -68,6 +71,7 @@ class ShellSolver {
   void lay_free_parts();
 
   std::vector<std::vector<Vec3>> poses_;
+  bool own_poses_ = true;  ///< examples are poses of the rest shape, not of another
   std::vector<Triangle> triangles_;
   ShellEnergy energy_;
   std::vector<Index> part_;  ///< of each vertex

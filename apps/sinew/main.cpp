@@ -26,7 +26,8 @@ constexpr Command commands[] = {
      declare_deform},
     {"blend", "Makes the shape between poses of a mesh, or beyond them",
      "  sinew blend stand.obj gallop.obj -w 0.5 -o between.obj\n"
-     "  sinew blend stand.obj poses/ -w 0.3,0,1.2 -o mixed.obj --report r.json",
+     "  sinew blend stand.obj poses/ -w 0.3,0,1.2 -o mixed.obj --report r.json\n"
+     "  sinew blend zebra.obj gallop.obj --of stand.obj -w 1 -o zebra-gallop.obj     (as the horse gallops)",
      declare_blend},
     {"apply", "Bends any other file of the same space with a solved edit, without solving",
      "  sinew deform coarse.ply --edit lift.json -o bent.ply --pose lift.pose\n"

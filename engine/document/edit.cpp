@@ -250,6 +250,7 @@ template <class A>
 static void fields(A& a, Is<Key> auto& key) {
   a.required("frame", key.frame);
   a.required("handles", key.handles);
+  a.optional("example_weights", key.example_weights);
   a.optional("interpolation", key.interpolation);
   a.place(key.place);
 }
@@ -353,6 +354,7 @@ static void fields(A& a, Is<Layer> auto& layer) {
   a.optional("stiffness", layer.stiffness);
   a.optional("examples", layer.examples);
   a.optional("example_weights", layer.example_weights);
+  a.optional("examples_of", layer.examples_of);
   a.optional("keys", layer.keys);
   a.optional("start", layer.start);
   a.place(layer.place);
@@ -384,6 +386,7 @@ static void change_paths(Project& project, const Change& change) {
     for (std::string& path : layer.examples) path = change(path);
     if (layer.markers) layer.markers->path = change(layer.markers->path);
     if (!layer.tets.empty()) layer.tets = change(layer.tets);
+    if (!layer.examples_of.empty()) layer.examples_of = change(layer.examples_of);
     for (Selection& selection : layer.nodes) visit(selection);
     for (Selection& selection : layer.fixed) visit(selection);
     for (Selection& selection : layer.rigid) visit(selection);

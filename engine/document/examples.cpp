@@ -6,15 +6,22 @@
 
 namespace sinew::document {
 
+namespace {
+
+void require_correspondence(const std::string& path, const Shape& rest, const Shape& pose) {
+  if (const std::string difference = difference_of_faces(rest, pose); !difference.empty())
+    throw InputError(path + ": " + difference + ": an example has the points and faces of the shape it is for");
+}
+
+}  // namespace
+
 std::vector<io::NamedPose> examples_of(const Layer& layer, const Shape& rest,
                                        const std::function<bool(double)>& progress) {
   std::vector<io::NamedPose> out;
   for (const std::string& path : layer.examples) {
     if (progress && !progress(0)) return out;
     for (io::NamedPose& pose : io::read_poses(path)) {
-      if (const std::string difference = difference_of_faces(rest, *pose.shape); !difference.empty())
-        throw InputError(pose.path + ": " + difference +
-                         ": an example has the points and faces of the shape it is for");
+      require_correspondence(pose.path, rest, *pose.shape);
       out.push_back(std::move(pose));
     }
   }
@@ -22,6 +29,12 @@ std::vector<io::NamedPose> examples_of(const Layer& layer, const Shape& rest,
     throw place_error(layer.place, "layer",
                       "at most " + std::to_string(out.size()) + " \"example_weights\", one an example",
                       std::to_string(layer.example_weights.size()));
+  return out;
+}
+
+std::shared_ptr<const Shape> examples_of_another(const Layer& layer, const Shape& rest) {
+  std::shared_ptr<const Shape> out = io::read(layer.examples_of);
+  require_correspondence(layer.examples_of, rest, *out);
   return out;
 }
 

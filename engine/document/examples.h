@@ -15,4 +15,7 @@ namespace sinew::document {
 std::vector<io::NamedPose> examples_of(const Layer& layer, const Shape& rest,
                                        const std::function<bool(double)>& progress);
 
+/// The shape that the examples are poses of, where that is another (Layer::examples_of). Throws InputError as above.
+std::shared_ptr<const Shape> examples_of_another(const Layer& layer, const Shape& rest);
+
 }  // namespace sinew::document

@@ -149,4 +149,12 @@ std::vector<Vec3> targets_between(const Motion& first, const Motion& second, dou
   return targets_of(motion_between(first, second, u, at_first, at_second, now, origin), now, origin);
 }
 
+std::vector<std::optional<double>> weights_between(std::span<const std::optional<double>> first,
+                                                   std::span<const std::optional<double>> second, double u) {
+  std::vector<std::optional<double>> out(std::max(first.size(), second.size()));
+  for (std::size_t k = 0; k < std::min(first.size(), second.size()); ++k)
+    if (first[k] && second[k]) out[k] = u == 0 ? *first[k] : *first[k] + u * (*second[k] - *first[k]);
+  return out;
+}
+
 }  // namespace sinew::document

@@ -15,6 +15,7 @@
 /// the targets are exactly those of targets_of (selection.h).
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -41,5 +42,9 @@ Motion motion_between(const Motion& first, const Motion& second, double u, std::
 /// points at the frames of the two keys.
 std::vector<Vec3> targets_between(const Motion& first, const Motion& second, double u, std::span<const Vec3> at_first,
                                   std::span<const Vec3> at_second, std::span<const Vec3> now, const Vec3& origin);
+
+/// Example weights between those of two keys; one that either leaves open is open.
+std::vector<std::optional<double>> weights_between(std::span<const std::optional<double>> first,
+                                                   std::span<const std::optional<double>> second, double u);
 
 }  // namespace sinew::document

@@ -117,6 +117,7 @@ enum class Interpolation { Linear, Smooth, Hold };
 struct Key {
   int frame = 1;
   std::vector<Motion> handles;
+  std::vector<std::optional<double>> example_weights;  ///< in place of the layer's; empty: these
   Interpolation interpolation = Interpolation::Linear;
   Place place;
   bool operator==(const Key&) const = default;
@@ -194,6 +195,7 @@ struct Layer {
   std::vector<std::string> examples;  ///< paths, as SelectLabels::path; each one pose or several (poses.h)
   /// Of the first examples, how much of each there is to be; null, or none given: the solver finds it.
   std::vector<std::optional<double>> example_weights;
+  std::string examples_of;  ///< a file that the examples are poses of, as SelectLabels::path; empty: the shape itself
   std::vector<Key> keys;
   Shared<Affine> start;  ///< the pose to start the solve from (Deformer::pose); empty: rest
   Place place;

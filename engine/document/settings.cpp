@@ -63,6 +63,7 @@ void refuse_unknown_parts(const Layer& layer, const Method& method) {
       {"stiffness", method.parts.stiffness, layer.stiffness.size()},
       {"examples", method.parts.examples, layer.examples.size()},
       {"example_weights", method.parts.examples, layer.example_weights.size()},
+      {"examples_of", method.parts.examples, layer.examples_of.empty() ? 0 : 1},
       {"cuts", method.parts.cuts, layer.cuts.size()},
       {"path", method.parts.nodes, layer.path ? 1 : 0},
       {"nodes", method.parts.nodes, layer.nodes.size()},
@@ -84,7 +85,8 @@ InputError place_error(const Place& place, const std::string& what, const std::s
 
 bool same_structure(const Layer& a, const Layer& b) {
   return a.method == b.method && a.settings == b.settings && a.nodes == b.nodes && a.path == b.path &&
-         a.cuts == b.cuts && a.tets == b.tets && a.examples == b.examples && a.frame == b.frame;
+         a.cuts == b.cuts && a.tets == b.tets && a.examples == b.examples && a.examples_of == b.examples_of &&
+         a.frame == b.frame;
 }
 
 const Method& method_of(const Layer& layer, std::span<const Method> methods) {

@@ -78,9 +78,11 @@ std::vector<Key> keys_of(const Layer& layer, int frame) {
     keys.emplace_back();
     keys.back().frame = frame;
   }
-  for (Key& key : keys)
+  for (Key& key : keys) {
+    if (key.example_weights.empty()) key.example_weights = layer.example_weights;
     for (std::size_t h = key.handles.size(); h < layer.handles.size(); ++h)
       key.handles.push_back(layer.handles[h].motion);
+  }
   return keys;
 }
 
@@ -230,7 +232,8 @@ bool Workspace::make(std::size_t i, const std::shared_ptr<const Shape>& base) {
   }
   const std::vector<Cut> cuts = cuts_of(layer, base->origin);
   const std::shared_ptr<const Shape> solid = layer.tets.empty() ? nullptr : solid_of(layer, base->origin);
-  StructureWishes wishes{points, layer.path.has_value(), cuts, solid, {}};
+  StructureWishes wishes{points, layer.path.has_value(), cuts, solid, {}, {}};
+  if (!layer.examples_of.empty()) wishes.examples_of = examples_of_another(layer, *base);
   std::vector<std::string> names;
   for (const io::NamedPose& example : examples_of(layer, *base, progress)) {
     wishes.examples.push_back(example.shape);
@@ -344,7 +347,13 @@ std::optional<Workspace::Wanted> Workspace::wanted(std::size_t i, int frame, con
     rest_second = rest_of(i, second.frame);
     if (rest_first == nullptr || rest_second == nullptr) return std::nullopt;
   }
-  Wanted out{{kept.marked->fixed, {}, kept.marked->rigid, kept.marked->stiffness, layer.example_weights}, {}, {}};
+  Wanted out{{kept.marked->fixed,
+              {},
+              kept.marked->rigid,
+              kept.marked->stiffness,
+              weights_between(first.example_weights, second.example_weights, span.u)},
+             {},
+             {}};
   for (std::size_t h = 0; h < layer.handles.size(); ++h) {
     const std::vector<Index>& points = kept.marked->handles[h];
     std::vector<Vec3> places = handle_places(layer.handles[h], rest.origin);

@@ -169,6 +169,9 @@ struct StructureWishes {
   std::shared_ptr<const Shape> solid;  ///< tets to use instead of making some, relative to the shape's origin
   /// Poses of the same points and faces, each with its own origin.
   std::vector<std::shared_ptr<const Shape>> examples;
+  /// What the examples are poses of, with the same points and faces: how it changes is applied to the shape. Null: the
+  /// shape itself.
+  std::shared_ptr<const Shape> examples_of;
 };
 
 /// A method as the application hands it to document: one row of the table in deformers/methods.h.

@@ -55,7 +55,7 @@ inline std::vector<std::pair<std::string, std::string>> bad_edits() {
        "\"markers\", "
        "\"nodes\", "
        "\"fixed\", \"handles\", \"rigid\", "
-       "\"stiffness\", \"examples\", \"example_weights\", \"keys\", \"start\", found \"setings\""},
+       "\"stiffness\", \"examples\", \"example_weights\", \"examples_of\", \"keys\", \"start\", found \"setings\""},
       {layer_with("\"settings\": {\"nodes\": @true}"), "expected a number or a text, found true"},
       {layer_with("\"path\": @{\"points\": [[0, 0, 0], [1, 1, 1]], \"every\": 2}"),
        "expected \"points\" alone, or \"id\" and \"every\", found both"},
