@@ -35,7 +35,9 @@ Trial line_search(const GaussNewtonModel& model, Vector& step, double F, bool fr
 }
 
 /// The three tests of eq. 12, and the relative one. The gradient of F is 2 J'f = 2 g.
-bool converged(const GaussNewtonOptions& options, double F, double decrease, const Vector& g, double largest_step) {
+bool converged(const GaussNewtonOptions& options, double F, double decrease, const Vector& g, const Vector& step) {
+  if (options.by_expectation) return std::max(decrease, -2 * g.dot(step)) <= options.relative_decrease * (F + 1e-6);
+  const double largest_step = step.lpNorm<Eigen::Infinity>();
   const double root = std::cbrt(options.epsilon);
   return decrease < options.epsilon * (1 + F) && 2 * g.lpNorm<Eigen::Infinity>() < root * (1 + F) &&
          largest_step < root * (1 + largest_step) &&
@@ -137,7 +139,7 @@ GaussNewtonResult gauss_newton(const GaussNewtonModel& model, KeptFactor& kept, 
       result.status = Status::Stopped;
       break;
     }
-    if (converged(options, F, decrease, g, step.lpNorm<Eigen::Infinity>())) {
+    if (converged(options, F, decrease, g, step)) {
       result.status = Status::Converged;
       break;
     }

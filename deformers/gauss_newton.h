@@ -42,7 +42,10 @@ struct GaussNewtonOptions {
   int max_iterations = 100;
   double epsilon = 1e-6;         ///< of the three tests of eq. 12
   double relative_decrease = 0;  ///< if positive: F must also fall by less than this share of itself
-  bool keep_factor = true;       ///< false: the plain method, a new factor in every iteration
+  /// In place of eq. 12: F fell by less than relative_decrease of (1e-6 + F), and no more was to be expected of the
+  /// step. For energies that are as steep in some directions as to make the size of their gradient say nothing.
+  bool by_expectation = false;
+  bool keep_factor = true;  ///< false: the plain method, a new factor in every iteration
   double far = INFINITY;  ///< a step that lowered F by more than this share of it came from afar: a new factor follows
   std::function<bool()> on_iteration;  ///< after each accepted step; false stops
 };

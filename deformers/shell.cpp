@@ -93,11 +93,16 @@ class ShellDeformer final : public Deformer {
     const double prefactor = seconds_since(begin);
     const ShellPath path = path_of(constraints);
     const auto targets = [&](double share) { return solver_targets(path.at(share)); };
-    SolveReport report = solver_->solve(targets, path.stretches(), options, [&] {
+    const auto published = [&] {
       if (!options.on_iteration) return true;
       publish();
       return options.on_iteration(pose_);
-    });
+    };
+    // From rest to the final answer, without examples to lead the way.
+    const bool twice = options.quality == SolveOptions::Quality::Final && mesh_.poses.size() == 1 &&
+                       path.stretches() > 1 && solver_->x() == solver_->rest();
+    SolveReport report = twice ? solver_->solve_twice(targets, path.stretches(), options, published)
+                               : solver_->solve(targets, path.stretches(), options, published);
     const auto refining = Clock::now();
     publish();
     if (coarse_ && options.quality == SolveOptions::Quality::Final && report.status != Status::Stopped)

@@ -20,7 +20,7 @@ double twice_area(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 /// Between -pi and pi.
 double wrapped(double angle) {
-  return std::remainder(angle, 2 * pi);
+  return angle - 2 * pi * std::nearbyint(angle / (2 * pi));
 }
 
 /// Each edge once in each direction: closed, and no triangle turned against its neighbours.
@@ -90,6 +90,7 @@ ShellEnergy::ShellEnergy(std::span<const std::vector<Vec3>> poses, std::span<con
   if (stiffness.learned && poses.size() > 1) learn();
   if (closed && std::abs(volumes_[0]) > 1e-9) w_v_ = std::sqrt(stiffness.nu) / std::abs(volumes_[0]);
   alpha_.assign(examples(), 0);
+  for (const auto& [i, j, k] : triangles_) areas_.push_back(twice_area(poses[0][i], poses[0][j], poses[0][k]));
 }
 
 void ShellEnergy::measure(std::span<const Vec3> pose, std::vector<double>& lengths, std::vector<double>& angles) const {
@@ -104,6 +105,7 @@ void ShellEnergy::weigh(std::span<const Vec3> rest, ShellStiffness stiffness) {
   const std::size_t m = edges_.size();
   w_s_.assign(m, 0);
   w_b_.assign(m, 0);
+  least_.assign(m, {0, 0});
   double mean = 0;
   for (const double L : lengths_[0]) mean += L / static_cast<double>(m);
   for (std::size_t e = 0; e < m; ++e) {
@@ -116,7 +118,9 @@ void ShellEnergy::weigh(std::span<const Vec3> rest, ShellStiffness stiffness) {
     const bool folds = std::any_of(angles_.begin() + 1, angles_.end(),
                                    [&](const std::vector<double>& change) { return std::abs(change[e]) > pi; });
     folds_ += folds;
-    if (!folds && std::min(A1, A2) > thin) w_b_[e] = std::sqrt(stiffness.mu) * L / std::sqrt(A1 + A2);
+    least_[e] = {2 * A1 * least_area, 2 * A2 * least_area};
+    if (folds || std::min(A1, A2) <= thin) continue;
+    w_b_[e] = std::sqrt(stiffness.mu) * L / std::sqrt(A1 + A2);
   }
 }
 
@@ -219,7 +223,7 @@ void ShellEnergy::gradient(std::span<const Vec3> x, std::span<double> by_x, std:
     }
     for (std::size_t k = 0; k < by_alpha.size(); ++k) by_alpha[k] -= r * lengths_[k + 1][a.edge];
     if (a.w_b <= 0) continue;
-    const Hinge hinge = hinge_at(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+    const Hinge hinge = hinge_at(x[v[0]], x[v[1]], x[v[2]], x[v[3]], least_[a.edge]);
     const double s = a.w_b * a.w_b * wrapped(hinge.theta - a.angle);
     for (std::size_t c = 0; c < 4; ++c) add(v[c], s * hinge.gradient[c]);
     for (std::size_t k = 0; k < by_alpha.size(); ++k) by_alpha[k] -= s * angles_[k + 1][a.edge];
@@ -301,7 +305,7 @@ void ShellEnergy::hessian(std::span<const Vec3> x, BlockMatrix& A, Normal& rest)
     const Vec3 g = length > 1e-15 ? Vec3(a.w_s / length * e) : Vec3(Vec3::Zero());
     add_row(a, std::array<Vec3, 2>{-g, g}, lengths_, a.w_s);
     if (a.w_b <= 0) continue;
-    Hinge hinge = hinge_at(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+    Hinge hinge = hinge_at(x[v[0]], x[v[1]], x[v[2]], x[v[3]], least_[a.edge]);
     for (Vec3& h : hinge.gradient) h *= a.w_b;
     add_row(a, hinge.gradient, angles_, a.w_b);
   }
@@ -348,7 +352,7 @@ std::vector<double> ShellEnergy::response(std::span<const Vec3> x, std::span<con
     const Vec3 g = length > 1e-15 ? Vec3(a.w_s / length * e) : Vec3(Vec3::Zero());
     add_row(a, std::array<Vec3, 2>{-g, g}, lengths_, a.w_s);
     if (a.w_b <= 0) continue;
-    Hinge hinge = hinge_at(x[v[0]], x[v[1]], x[v[2]], x[v[3]]);
+    Hinge hinge = hinge_at(x[v[0]], x[v[1]], x[v[2]], x[v[3]], least_[a.edge]);
     for (Vec3& h : hinge.gradient) h *= a.w_b;
     add_row(a, hinge.gradient, angles_, a.w_b);
   }
@@ -402,6 +406,15 @@ std::vector<double> ShellEnergy::best_weights(std::span<const Vec3> x,
   if (!alpha.allFinite()) return alpha_;
   std::vector<double> out(alpha.data(), alpha.data() + alpha.size());
   for (std::size_t p = 0; p < std::min(out.size(), pinned.size()); ++p) out[p] = pinned[p].value_or(out[p]);
+  return out;
+}
+
+std::size_t ShellEnergy::collapsed(std::span<const Vec3> x) const {
+  std::size_t out = 0;
+  for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    const auto& [i, j, k] = triangles_[t];
+    out += twice_area(x[i], x[j], x[k]) < least_area * areas_[t];
+  }
   return out;
 }
 

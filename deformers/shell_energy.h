@@ -38,12 +38,14 @@ struct ShellEdge {
 std::vector<ShellEdge> shell_edges(std::span<const Triangle> triangles);
 
 /// The dihedral angle of x1 x2, between x3 and x4, 0 where flat, -pi..pi, and its gradient by each of them (appendix
-/// B). Zero gradients where a triangle has no area.
+/// B). `least`: what twice the area of each triangle, x1 x2 x3 and x1 x2 x4, is taken for where it is smaller: the
+/// gradient grows without bound as a triangle loses its area, where the angle jumps, and one such triangle would let
+/// the whole surface make no more than tiny steps. Zero gradients where a triangle has no area and there is no least.
 struct Hinge {
   double theta = 0;
   std::array<Vec3, 4> gradient{};
 };
-Hinge hinge_at(const Vec3& x1, const Vec3& x2, const Vec3& x3, const Vec3& x4);
+Hinge hinge_at(const Vec3& x1, const Vec3& x2, const Vec3& x3, const Vec3& x4, std::array<double, 2> least = {0, 0});
 double dihedral_angle(const Vec3& x1, const Vec3& x2, const Vec3& x3, const Vec3& x4);
 
 /// 1/6 of the sum of x_i x x_j . x_k over triangles (eq. 4).
@@ -108,10 +110,15 @@ class ShellEnergy {
   /// Weights that make E least for this x; `pinned` ones stay. E is quadratic in alpha.
   std::vector<double> best_weights(std::span<const Vec3> x, std::span<const std::optional<double>> pinned) const;
 
+  /// Triangles with less than least_area of their area: there E has steps, and a minimum among them is not smooth.
+  std::size_t collapsed(std::span<const Vec3> x) const;
+
   /// What of E belongs to each vertex: halves of its edges'.
   std::vector<double> vertex_energies(std::span<const Vec3> x) const;
 
   static constexpr double w_c = 3e3;  ///< of ties
+  /// Of its area at rest: below this share a triangle counts as so large in the gradient of its angles.
+  static constexpr double least_area = 0.3;
 
  private:
   /// An edge that depends on an unknown, with where its blocks of A are.
@@ -130,9 +137,11 @@ class ShellEnergy {
   double volume_residual(std::span<const Vec3> x) const;
 
   std::vector<Triangle> triangles_;
+  std::vector<double> areas_;  ///< twice, at rest
   std::vector<ShellEdge> edges_;
   std::vector<std::vector<double>> lengths_, angles_;  ///< at rest; then each example's difference from that
   std::vector<double> volumes_;                        ///< likewise
+  std::vector<std::array<double, 2>> least_;           ///< of an edge's two triangles: see hinge_at
   std::vector<double> w_s_, w_b_;                      ///< as the material is; w_b is 0 where there is no angle
   double w_v_ = 0;
   std::size_t folds_ = 0;

@@ -8,9 +8,9 @@ namespace sinew {
 
 namespace {
 
-/// n / |n|^2, zero where that is not defined: the gradient of an angle beside a triangle without area.
-Vec3 inverse_of(const Vec3& n) {
-  const double square = n.squaredNorm();
+/// n / |n|^2, with |n| at least `least`; zero where that is not defined.
+Vec3 inverse_of(const Vec3& n, double least) {
+  const double square = std::max(n.squaredNorm(), least * least);
   return square > 1e-30 ? Vec3(n / square) : Vec3(Vec3::Zero());
 }
 
@@ -53,12 +53,12 @@ double dihedral_angle(const Vec3& x1, const Vec3& x2, const Vec3& x3, const Vec3
   return std::atan2(n1.cross(n2).dot(e), n1.dot(n2) * e.norm());
 }
 
-Hinge hinge_at(const Vec3& x1, const Vec3& x2, const Vec3& x3, const Vec3& x4) {
+Hinge hinge_at(const Vec3& x1, const Vec3& x2, const Vec3& x3, const Vec3& x4, std::array<double, 2> least) {
   const Vec3 e = x2 - x1, n1 = (x3 - x2).cross(x3 - x1), n2 = (x4 - x1).cross(x4 - x2);
   const double length = e.norm();
   Hinge out;
   out.theta = std::atan2(n1.cross(n2).dot(e), n1.dot(n2) * length);
-  const Vec3 a = inverse_of(n1), b = inverse_of(n2);
+  const Vec3 a = inverse_of(n1, least[0]), b = inverse_of(n2, least[1]);
   const Vec3 unit = length > 1e-15 ? Vec3(e / length) : Vec3(Vec3::Zero());
   out.gradient[0] = (x3 - x2).dot(unit) * a + (x4 - x2).dot(unit) * b;
   out.gradient[1] = -(x3 - x1).dot(unit) * a - (x4 - x1).dot(unit) * b;

@@ -74,20 +74,38 @@ struct ShellSolver::Model {
       for (Eigen::Index q = 0; q < k(); ++q)
         C(p, q) = all_C(i, static_cast<Eigen::Index>(which[static_cast<std::size_t>(q)]));
     }
-    Z = B;
-    for (Eigen::Index p = 0; p < k(); ++p) A.solve(span_of(Z, p));
+    solve_columns(A);
     // Where handles leave weights undetermined the complement is singular: a damping keeps the step short there.
     C.diagonal() *= 1 + 1e-6;
     schur.compute(C - B.transpose() * Z);
-    z = u;
-    without_volume(A, z);
+    add_schur(z);
     uz = u.dot(z);
     ready = true;
+  }
+
+  /// Z = A^-1 B and z = A^-1 u, three at a time.
+  void solve_columns(const SparseCholesky& A) {
+    Z = B;
+    z = u;
+    const auto column = [&](Eigen::Index c) { return Eigen::Map<Vector>(c < k() ? Z.col(c).data() : z.data(), n()); };
+    Matrix side_by_side(3, n());
+    for (Eigen::Index first = 0; first <= k(); first += 3) {
+      side_by_side.setZero();
+      const Eigen::Index count = std::min<Eigen::Index>(3, k() + 1 - first);
+      for (Eigen::Index c = 0; c < count; ++c) side_by_side.row(c) = column(first + c).transpose();
+      A.solve_three({side_by_side.data(), static_cast<std::size_t>(side_by_side.size())});
+      for (Eigen::Index c = 0; c < count; ++c) column(first + c) = side_by_side.row(c).transpose();
+    }
   }
 
   /// v <- M0^-1 v.
   void without_volume(const SparseCholesky& A, Vector& v) const {
     A.solve({v.data(), static_cast<std::size_t>(n())});
+    add_schur(v);
+  }
+
+  /// The rest of that, where A^-1 was applied to the vertices' part.
+  void add_schur(Vector& v) const {
     if (k() == 0) return;
     const Vector a = schur.solve(v.tail(k()) - B.transpose() * v.head(n()));
     v.tail(k()) = a;
@@ -237,12 +255,17 @@ void ShellSolver::go_to(std::span<const Vec3> targets) {
     std::vector<double> step(gn.unknowns);
     std::copy_n(pushed.begin(), 3 * count_, step.begin());
     for (std::size_t p = 0; p < model_->which.size(); ++p) step[3 * count_ + p] = pushed[3 * count_ + model_->which[p]];
-    if (kept_.usable || make_factor(gn, kept_, step)) {
+    if (make_factor(gn, kept_, step)) {
       gn.precondition(kept_.cholesky, step);
       for (double& number : step) number = -number;
       take_best(gn, step, targets);
     }
   }
+  snap_to(targets);
+}
+
+void ShellSolver::snap_to(std::span<const Vec3> targets) {
+  energy_.set_targets({targets.begin() + static_cast<std::ptrdiff_t>(held_.vertices.size()), targets.end()});
   for (std::size_t i = 0; i < held_.vertices.size(); ++i) x_[held_.vertices[i]] = targets[i];
 }
 
@@ -273,14 +296,16 @@ SolveReport ShellSolver::solve(const Path& path, int stretches, const SolveOptio
   GaussNewtonOptions own;
   own.epsilon = options.epsilon;
   own.far = 0.02;
-  own.relative_decrease = 1e-6;
+  own.by_expectation = true;
+  own.relative_decrease = options.quality == SolveOptions::Quality::Final ? options.epsilon : 1e-3;
   own.on_iteration = [&] { return !on_iteration || on_iteration(); };
   // Most iterations reuse a factor: three of them cost what one does that makes a factor.
   const int most = (options.quality == SolveOptions::Quality::Final ? 3 : 1) * options.max_iterations;
   GaussNewtonResult result;
   int iterations = 0;
-  for (int i = 1; i <= stretches; ++i) {
-    go_to(path(static_cast<double>(i) / stretches));
+  if (stretches == 0) snap_to(path(1));
+  for (int i = std::min(1, stretches); i <= stretches; ++i) {
+    if (i > 0) go_to(path(static_cast<double>(i) / stretches));
     const int left = most - iterations;
     own.max_iterations = i < stretches ? std::min(2, left) : left;
     if (stretches > 1) kept_.usable = false;
@@ -293,6 +318,9 @@ SolveReport ShellSolver::solve(const Path& path, int stretches, const SolveOptio
   SolveReport report;
   report.status = result.status;
   report.message = result.message;
+  if (const std::size_t flat = energy_.collapsed(x_); result.status == Status::Stalled && flat > 0)
+    report.message = "no step lowers the energy further: " + std::to_string(flat) +
+                     (flat == 1 ? " triangle has" : " triangles have") + " lost most of their area";
   report.iterations = iterations;
   energy_.set_weights(alpha_);
   const ShellEnergy::Terms terms = energy_.energy(x_);
@@ -300,6 +328,30 @@ SolveReport ShellSolver::solve(const Path& path, int stretches, const SolveOptio
       {"total", terms.total()}, {"stretch", terms.stretch}, {"bend", terms.bend}, {"volume", terms.volume}};
   report.example_weights = alpha_;
   report.solve_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return report;
+}
+
+SolveReport ShellSolver::solve_twice(const Path& path, int stretches, const SolveOptions& options,
+                                     const std::function<bool()>& on_iteration) {
+  const std::vector<Vec3> start = x_;
+  const std::vector<double> start_alpha = alpha_;
+  SolveReport report = solve(path, stretches, options, on_iteration);
+  if (report.status == Status::Stopped) return report;
+  std::vector<Vec3> x = std::exchange(x_, start);
+  std::vector<double> alpha = std::exchange(alpha_, start_alpha);
+  SolveReport second = solve(path, 0, options, on_iteration);
+  const int iterations = report.iterations + second.iterations;
+  const double seconds = report.solve_seconds + second.solve_seconds;
+  const bool better = second.energy.front().second < report.energy.front().second;
+  if (better && second.status != Status::Stopped) {
+    report = std::move(second);
+  } else {
+    x_ = std::move(x);
+    alpha_ = std::move(alpha);
+    if (second.status == Status::Stopped) report.status = second.status;
+  }
+  report.iterations = iterations;
+  report.solve_seconds = seconds;
   return report;
 }
 

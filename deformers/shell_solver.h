@@ -48,7 +48,7 @@ class ShellSolver {
 
   /// From the present x and alpha, along the path in so many stretches: a step that pushed what is held all the way at
   /// once would fold the surface beside it, and a fold stays. Each stretch begins with what the free vertices do to
-  /// first order as the held ones go.
+  /// first order as the held ones go. None: what is held is at once where it is to be, as in the paper.
   SolveReport solve(const Path& path, int stretches, const SolveOptions& options,
                     const std::function<bool()>& on_iteration);
 
@@ -59,6 +59,10 @@ class ShellSolver {
   std::size_t free_vertices() const { return count_; }
   std::size_t resting_parts() const { return resting_; }
 
+  /// Solves both ways from where it is, and keeps the lower minimum: thin shells have many, side by side.
+  SolveReport solve_twice(const Path& path, int stretches, const SolveOptions& options,
+                          const std::function<bool()>& on_iteration);
+
   void reset();                     ///< to rest, alpha to 0 where it is not pinned
   void set_x(std::vector<Vec3> x);  ///< with the alpha that suits it best
 
@@ -67,6 +71,7 @@ class ShellSolver {
   void number_unknowns();
   GaussNewtonModel model();
   void go_to(std::span<const Vec3> targets);
+  void snap_to(std::span<const Vec3> targets);
   void take_best(const GaussNewtonModel& gn, std::span<const double> step, std::span<const Vec3> targets);
   void lay_free_parts();
 

@@ -195,13 +195,15 @@ TEST(Shell, KeepsTheVolumeOfAStretchedCylinderWhereItIsAskedTo) {
   const auto rest = small_cylinder();
   const auto stretch = [](const Vec3& p) { return Vec3(p.x(), p.y() + 0.575 * (p.y() > 0.5), p.z()); };
   const Constraints constraints = test::moved_end(*rest, stretch);
-  ShellOptions without;
-  without.stiffness.nu = 0;
-  EXPECT_LT(volume_change(*rest, solved(rest, constraints, {}, without)), 0.47);
-  ShellOptions with;
-  with.stiffness.nu = 1e7;
-  EXPECT_LT(std::abs(volume_change(*rest, solved(rest, constraints, {}, with))),
-            0.01 * std::abs(volume_change(*rest, solved(rest, constraints, {}, without))));
+  const auto change = [&](double nu) {
+    ShellOptions options;
+    options.stiffness.nu = nu;
+    const auto deformer = shell(rest, {}, options);
+    deformer->solve(constraints, {});
+    return volume_change(*rest, bent(*rest, *deformer));
+  };
+  EXPECT_GT(change(0), 0.2);
+  EXPECT_LT(std::abs(change(1e7)), 1e-3);
 }
 
 TEST(Shell, PointsOfASeamStayTogetherAndLoosePointsAreCarried) {
