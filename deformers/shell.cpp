@@ -153,9 +153,10 @@ class ShellDeformer final : public Deformer {
       poses.push_back(coarse_ ? coarse_->coarse_of(pose) : pose);
       for (Vec3& p : poses.back()) p = unit_.apply(p);
     }
-    solver_ = std::make_unique<ShellSolver>(
-        std::move(poses), coarse_ ? coarse_->triangles() : mesh_.triangles, options_.stiffness,
-        coarse_ && !mesh_.source.empty() ? coarse_->coarse_of(mesh_.source) : mesh_.source);
+    std::vector<Vec3> source = coarse_ && !mesh_.source.empty() ? coarse_->coarse_of(mesh_.source) : mesh_.source;
+    for (Vec3& p : source) p = unit_.apply(p);
+    solver_ = std::make_unique<ShellSolver>(std::move(poses), coarse_ ? coarse_->triangles() : mesh_.triangles,
+                                            options_.stiffness, std::move(source));
   }
 
   /// Points of vertices follow these; those on no face the nearest triangle.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/geometry/affine.h"
+#include "engine/geometry/bounds.h"
 #include "engine/geometry/check.h"
 #include "engine/geometry/union_find.h"
 
@@ -134,13 +135,14 @@ struct ShellSolver::Model {
 ShellSolver::ShellSolver(std::vector<std::vector<Vec3>> poses, std::vector<Triangle> triangles,
                          ShellStiffness stiffness, std::vector<Vec3> source)
     : poses_(std::move(poses)),
-      own_poses_(source.empty()),
+      base_(source.empty() ? poses_.front() : std::move(source)),
       triangles_(std::move(triangles)),
-      energy_(poses_, triangles_, stiffness, source),
+      energy_(poses_, triangles_, stiffness, base_),
       model_(std::make_unique<Model>(*this)),
       x_(rest()),
       alpha_(poses_.size() - 1, 0) {
   for (std::size_t k = 0; k < alpha_.size(); ++k) model_->which.push_back(k);
+  if (const double size = bounds_of(base_).diagonal(); size > 0) base_scale_ = bounds_of(rest()).diagonal() / size;
   UnionFind sets(x_.size());
   for (const Triangle& t : triangles_)
     for (const Index v : t) sets.join(t[0], v);
@@ -211,8 +213,8 @@ void ShellSolver::lay_free_parts() {
       if (part_[v] != part) continue;
       from.push_back(x_[v]);
       to.push_back(poses_[0][v]);
-      for (std::size_t k = 0; own_poses_ && k < alpha_.size(); ++k)
-        to.back() += alpha_[k] * (poses_[k + 1][v] - poses_[0][v]);
+      for (std::size_t k = 0; k < alpha_.size(); ++k)
+        to.back() += alpha_[k] * base_scale_ * (poses_[k + 1][v] - base_[v]);
     }
     const Affine fit = rigid_fit(from, to);
     for (std::size_t v = 0; v < x_.size(); ++v)

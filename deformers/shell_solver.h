@@ -76,7 +76,8 @@ class ShellSolver {
   void lay_free_parts();
 
   std::vector<std::vector<Vec3>> poses_;
-  bool own_poses_ = true;  ///< examples are poses of the rest shape, not of another
+  std::vector<Vec3> base_;  ///< what the examples are poses of
+  double base_scale_ = 1;   ///< size of the rest shape in units of that
   std::vector<Triangle> triangles_;
   ShellEnergy energy_;
   std::vector<Index> part_;  ///< of each vertex

@@ -43,7 +43,7 @@ TEST_F(Sinew, EveryCommandHasHelpWithExamples) {
   const Outcome help = run_sinew({"--help"});
   EXPECT_EQ(help.status, 0);
   EXPECT_EQ(help.err, "");
-  for (const char* command : {"info", "deform", "apply", "render", "diff", "convert", "formats", "methods"}) {
+  for (const char* command : {"info", "deform", "blend", "apply", "render", "diff", "convert", "formats", "methods"}) {
     EXPECT_NE(help.out.find(std::string("\n  ") + command + " "), std::string::npos) << command;
     const Outcome of_command = run_sinew({command, "--help"});
     EXPECT_EQ(of_command.status, 0);
