@@ -148,15 +148,21 @@ class ShellDeformer final : public Deformer {
   ShellSurface surface() const { return {mesh_.rest(), mesh_.triangles}; }
 
   void make_solver() {
+    solver_ = solver_of(coarse_.get());
+    fine_solver_.reset();
+  }
+
+  /// Of the coarse vertices, or of all of them.
+  std::unique_ptr<ShellSolver> solver_of(const ShellCoarse* coarse) const {
+    const auto normalised = [&](const std::vector<Vec3>& pose) {
+      std::vector<Vec3> out = coarse != nullptr && !pose.empty() ? coarse->coarse_of(pose) : pose;
+      for (Vec3& p : out) p = unit_.apply(p);
+      return out;
+    };
     std::vector<std::vector<Vec3>> poses;
-    for (const std::vector<Vec3>& pose : mesh_.poses) {
-      poses.push_back(coarse_ ? coarse_->coarse_of(pose) : pose);
-      for (Vec3& p : poses.back()) p = unit_.apply(p);
-    }
-    std::vector<Vec3> source = coarse_ && !mesh_.source.empty() ? coarse_->coarse_of(mesh_.source) : mesh_.source;
-    for (Vec3& p : source) p = unit_.apply(p);
-    solver_ = std::make_unique<ShellSolver>(std::move(poses), coarse_ ? coarse_->triangles() : mesh_.triangles,
-                                            options_.stiffness, std::move(source));
+    for (const std::vector<Vec3>& pose : mesh_.poses) poses.push_back(normalised(pose));
+    return std::make_unique<ShellSolver>(std::move(poses), coarse != nullptr ? coarse->triangles() : mesh_.triangles,
+                                         options_.stiffness, normalised(mesh_.source));
   }
 
   /// Points of vertices follow these; those on no face the nearest triangle.
@@ -181,8 +187,8 @@ class ShellDeformer final : public Deformer {
     }
   }
 
-  /// Which vertices are held and where. One that is fixed and of a handle goes with the handle; of two handles, with
-  /// the first. What has no target stays where it is.
+  /// Which vertices are held and where, and how stiff all are. One that is fixed and of a handle goes with the handle;
+  /// of two handles, with the first. What has no target stays where it is.
   void hold(const Constraints& constraints) {
     std::vector<bool> taken(mesh_.size(), false);
     std::vector<Held> held;
@@ -199,6 +205,14 @@ class ShellDeformer final : public Deformer {
     for (const Index i : constraints.fixed) add(i, rest_->positions[i], Held::fixed);
     std::sort(held.begin(), held.end(), [](const Held& a, const Held& b) { return a.vertex < b.vertex; });
     held_ = std::move(held);
+    stiffness_.clear();
+    for (const Stiff& stiff : constraints.stiffness) {
+      std::vector<double> factors(mesh_.size(), 1);
+      for (const Index i : stiff.points)
+        if (const Index v = mesh_.vertex_of_point[i]; v != ShellMesh::none) factors[v] = stiff.factor;
+      stiffness_.resize(mesh_.size(), 1);
+      for (Index v = 0; v < stiffness_.size(); ++v) stiffness_[v] *= factors[v];
+    }
   }
 
   Vec3 moved(Index v) const {
@@ -245,14 +259,9 @@ class ShellDeformer final : public Deformer {
       out.ties.push_back(tie);
       solver_held_.push_back(k);
     }
-    for (const Stiff& stiff : constraints.stiffness) {
-      std::vector<double> factors(mesh_.size(), 1);
-      for (const Index i : stiff.points)
-        if (const Index v = mesh_.vertex_of_point[i]; v != ShellMesh::none) factors[v] = stiff.factor;
-      if (out.stiffness.empty()) out.stiffness.assign(solver_->x().size(), 1);
-      for (Index v = 0; v < out.stiffness.size(); ++v)
-        out.stiffness[v] *= factors[coarse_ ? coarse_->vertices()[v] : v];
-    }
+    if (!stiffness_.empty())
+      for (Index v = 0; v < solver_->x().size(); ++v)
+        out.stiffness.push_back(stiffness_[coarse_ ? coarse_->vertices()[v] : v]);
     return out;
   }
 
@@ -283,14 +292,15 @@ class ShellDeformer final : public Deformer {
     if (count > 0) report.handle_rms = std::sqrt(squares / static_cast<double>(count));
   }
 
-  /// The solver's vertices in the shape's coordinates, to the last bit where they did not move.
-  std::vector<Vec3> solved() const {
-    const std::vector<Vec3>&x = solver_->x(), &rest = solver_->rest();
+  /// A solver's vertices in the shape's coordinates, to the last bit where they did not move.
+  std::vector<Vec3> in_shape(const ShellSolver& solver, const ShellCoarse* coarse) const {
+    const std::vector<Vec3>&x = solver.x(), &rest = solver.rest();
     std::vector<Vec3> out(x.size());
     for (std::size_t v = 0; v < x.size(); ++v)
-      out[v] = x[v] == rest[v] ? mesh_.rest()[coarse_ ? coarse_->vertices()[v] : v] : unit_.undo(x[v]);
+      out[v] = x[v] == rest[v] ? mesh_.rest()[coarse != nullptr ? coarse->vertices()[v] : v] : unit_.undo(x[v]);
     return out;
   }
+  std::vector<Vec3> solved() const { return in_shape(*solver_, coarse_.get()); }
 
   void publish() {
     if (coarse_)
@@ -325,6 +335,33 @@ class ShellDeformer final : public Deformer {
     }
     pose_ = vertex_maps(mesh_.rest(), fine, mesh_.triangles);
     meet_exactly();
+    if (options_.finish == ShellOptions::Finish::Solved) solve_fine(report, options, fine);
+  }
+
+  /// All vertices from where they were reconstructed, with the weights that were found [section 7].
+  void solve_fine(SolveReport& report, const SolveOptions& options, const std::vector<Vec3>& from) {
+    if (fine_solver_ == nullptr) fine_solver_ = solver_of(nullptr);
+    ShellHeld held;
+    std::vector<Vec3> targets, x;
+    for (const Held& h : held_) {
+      held.vertices.push_back(h.vertex);
+      targets.push_back(unit_.apply(h.target));
+    }
+    held.stiffness = stiffness_;
+    held.weights.assign(solver_->alpha().begin(), solver_->alpha().end());
+    for (std::size_t v = 0; v < from.size(); ++v)
+      x.push_back(from[v] == mesh_.rest()[v] ? fine_solver_->rest()[v] : unit_.apply(from[v]));
+    fine_solver_->prepare(held);
+    fine_solver_->set_x(std::move(x));
+    SolveOptions few = options;
+    few.max_iterations = std::min(options.max_iterations, 4);
+    const SolveReport fine = fine_solver_->solve([&](double) { return targets; }, 1, few,
+                                                 [&] { return !options.on_iteration || options.on_iteration(pose_); });
+    report.iterations += fine.iterations;
+    report.energy = fine.energy;
+    if (fine.status == Status::Stopped || fine.status == Status::Failed) report.status = fine.status;
+    pose_ = vertex_maps(mesh_.rest(), in_shape(*fine_solver_, nullptr), mesh_.triangles);
+    meet_exactly();
   }
 
   ShellOptions options_;
@@ -333,7 +370,10 @@ class ShellDeformer final : public Deformer {
   ShellMesh mesh_;
   std::unique_ptr<ShellCoarse> coarse_;  ///< null: the shape's own vertices are solved for
   std::unique_ptr<ShellSolver> solver_;
+  std::unique_ptr<ShellSolver>
+      fine_solver_;                 ///< of all vertices, where they are solved for at the end; null until then
   std::vector<Held> held_;          ///< ascending
+  std::vector<double> stiffness_;   ///< of each vertex; empty: all as they are
   std::vector<Index> solver_held_;  ///< of what the solver holds, which of held_ it is
   SkinWeights weights_;
   Pose pose_;
@@ -352,6 +392,14 @@ const std::vector<Setting>& shell_settings() {
       {"stretch", 100, 0.001, 1e6, "", "Resistance of the surface to stretching.", false, {}},
       {"bend", 1, 0, 1e6, "", "Resistance of the surface to bending.", false, {}},
       {"volume", 1000, 0, 1e9, "", "Resistance of a closed surface to a change of its volume.", false, {}},
+      {"finish",
+       0,
+       0,
+       1,
+       "",
+       "The final answer of a larger shape is reconstructed, or solved for with all vertices from there.",
+       false,
+       {"reconstructed", "solved"}},
       {"stiffness",
        0,
        0,
@@ -369,6 +417,7 @@ std::unique_ptr<Deformer> make(std::shared_ptr<const Shape> rest, const Settings
   const auto value = [&](const char* name) { return value_of(settings, shell_settings(), name); };
   ShellOptions options;
   options.vertices = static_cast<std::size_t>(value("vertices"));
+  options.finish = value("finish") == 1 ? ShellOptions::Finish::Solved : ShellOptions::Finish::Reconstructed;
   options.stiffness = {value("stretch"), value("bend"), value("volume"), value("stiffness") == 1};
   return make_shell_deformer(std::move(rest), wishes.examples, options, progress, wishes.examples_of.get());
 }

@@ -17,6 +17,9 @@ namespace sinew {
 struct ShellOptions {
   /// About how many vertices it is solved with where there are more than twice as many [section 7]; 0: all of them.
   std::size_t vertices = 1000;
+  /// How the final answer of a shape that was solved coarse comes to all vertices: reconstructed, or solved for from
+  /// there, in a few Gauss-Newton steps with all of them.
+  enum class Finish { Reconstructed, Solved } finish = Finish::Reconstructed;
   ShellStiffness stiffness;
 };
 
