@@ -105,7 +105,9 @@ ShellMesh shell_mesh_of(const Shape& rest, std::span<const std::shared_ptr<const
     mesh.notes.push_back(counted(dropped, " triangle was", " triangles were") +
                          " left out of the shell: corners in one place, or not finite.");
   if (shared > 0)
-    mesh.notes.push_back(counted(shared, " point is", " points are") + " in the place of another and moves with it.");
+    mesh.notes.push_back(
+        counted(shared, " point is", " points are") +
+        (shared == 1 ? " in the place of another and moves with it." : " in the place of another and move with it."));
   const auto loose =
       static_cast<std::size_t>(std::count(mesh.vertex_of_point.begin(), mesh.vertex_of_point.end(), ShellMesh::none));
   if (loose > 0)

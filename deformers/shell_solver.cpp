@@ -295,21 +295,23 @@ SolveReport ShellSolver::solve(const Path& path, int stretches, const SolveOptio
   const auto begin = std::chrono::steady_clock::now();
   for (std::size_t k = 0; k < std::min(alpha_.size(), held_.weights.size()); ++k)
     if (held_.weights[k]) alpha_[k] = *held_.weights[k];
+  const bool final_answer = options.quality == SolveOptions::Quality::Final;
   GaussNewtonOptions own;
   own.epsilon = options.epsilon;
   own.far = 0.02;
   own.by_expectation = true;
-  own.relative_decrease = options.quality == SolveOptions::Quality::Final ? options.epsilon : 1e-3;
+  own.relative_decrease = final_answer ? options.epsilon : 1e-3;
   own.on_iteration = [&] { return !on_iteration || on_iteration(); };
   // Most iterations reuse a factor: three of them cost what one does that makes a factor.
-  const int most = (options.quality == SolveOptions::Quality::Final ? 3 : 1) * options.max_iterations;
+  const int most = (final_answer ? 3 : 1) * options.max_iterations;
   GaussNewtonResult result;
   int iterations = 0;
   if (stretches == 0) snap_to(path(1));
   for (int i = std::min(1, stretches); i <= stretches; ++i) {
     if (i > 0) go_to(path(static_cast<double>(i) / stretches));
     const int left = most - iterations;
-    own.max_iterations = i < stretches ? std::min(2, left) : left;
+    // While something is dragged the next move comes before the minimum: it is approached over several of them.
+    own.max_iterations = i < stretches ? std::min(2, left) : final_answer ? left : std::min(8, left);
     if (stretches > 1) kept_.usable = false;
     result = gauss_newton(model(), kept_, own);
     iterations += result.iterations;
@@ -322,7 +324,7 @@ SolveReport ShellSolver::solve(const Path& path, int stretches, const SolveOptio
   report.message = result.message;
   if (const std::size_t flat = energy_.collapsed(x_); result.status == Status::Stalled && flat > 0)
     report.message = "no step lowers the energy further: " + std::to_string(flat) +
-                     (flat == 1 ? " triangle has" : " triangles have") + " lost most of their area";
+                     (flat == 1 ? " triangle has lost most of its area" : " triangles have lost most of their area");
   report.iterations = iterations;
   energy_.set_weights(alpha_);
   const ShellEnergy::Terms terms = energy_.energy(x_);
