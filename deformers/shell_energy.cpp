@@ -206,6 +206,21 @@ std::vector<Vec3> ShellEnergy::volume_gradient(std::span<const Vec3> x) const {
   return out;
 }
 
+template <class Visit>
+void ShellEnergy::each_row(std::span<const Vec3> x, const Visit& visit) const {
+  for (const Active& a : active_) {
+    const std::array<Index, 4>& v = edges_[a.edge].x;
+    const Vec3 e = x[v[1]] - x[v[0]];
+    const double length = e.norm();
+    const Vec3 g = length > 1e-15 ? Vec3(a.w_s / length * e) : Vec3(Vec3::Zero());
+    visit(Row{a, std::array<Vec3, 2>{-g, g}, a.w_s * (length - a.length), a.w_s, lengths_});
+    if (a.w_b <= 0) continue;
+    Hinge hinge = hinge_at(x[v[0]], x[v[1]], x[v[2]], x[v[3]], least_[a.edge]);
+    for (Vec3& h : hinge.gradient) h *= a.w_b;
+    visit(Row{a, hinge.gradient, a.w_b * wrapped(hinge.theta - a.angle), a.w_b, angles_});
+  }
+}
+
 void ShellEnergy::gradient(std::span<const Vec3> x, std::span<double> by_x, std::span<double> by_alpha) const {
   std::fill(by_x.begin(), by_x.end(), 0);
   std::fill(by_alpha.begin(), by_alpha.end(), 0);
@@ -213,21 +228,12 @@ void ShellEnergy::gradient(std::span<const Vec3> x, std::span<double> by_x, std:
     if (number_[v] == ShellEdge::none) return;
     for (int c = 0; c < 3; ++c) by_x[3 * number_[v] + static_cast<std::size_t>(c)] += g[c];
   };
-  for (const Active& a : active_) {
-    const std::array<Index, 4>& v = edges_[a.edge].x;
-    const Vec3 e = x[v[1]] - x[v[0]];
-    const double length = e.norm(), r = a.w_s * a.w_s * (length - a.length);
-    if (length > 1e-15) {
-      add(v[0], -r / length * e);
-      add(v[1], r / length * e);
-    }
-    for (std::size_t k = 0; k < by_alpha.size(); ++k) by_alpha[k] -= r * lengths_[k + 1][a.edge];
-    if (a.w_b <= 0) continue;
-    const Hinge hinge = hinge_at(x[v[0]], x[v[1]], x[v[2]], x[v[3]], least_[a.edge]);
-    const double s = a.w_b * a.w_b * wrapped(hinge.theta - a.angle);
-    for (std::size_t c = 0; c < 4; ++c) add(v[c], s * hinge.gradient[c]);
-    for (std::size_t k = 0; k < by_alpha.size(); ++k) by_alpha[k] -= s * angles_[k + 1][a.edge];
-  }
+  each_row(x, [&](const Row& row) {
+    const std::array<Index, 4>& v = edges_[row.edge.edge].x;
+    for (std::size_t c = 0; c < row.gradients.size(); ++c) add(v[c], row.residual * row.gradients[c]);
+    for (std::size_t k = 0; k < by_alpha.size(); ++k)
+      by_alpha[k] -= row.residual * row.w * row.changes[k + 1][row.edge.edge];
+  });
   if (w_v_ > 0) {
     const double q = w_v_ * volume_residual(x);
     const std::vector<Vec3> dv = volume_gradient(x);
@@ -280,35 +286,24 @@ void ShellEnergy::hessian(std::span<const Vec3> x, BlockMatrix& A, Normal& rest)
   rest.B.assign(n * k, 0);
   rest.C.assign(k * k, 0);
   rest.u.assign(n + k, 0);
-  // A row of J: g by the corners, and minus an example's change by each alpha.
-  const auto add_row = [&](const Active& a, std::span<const Vec3> g, const std::vector<std::vector<double>>& changes,
-                           double w) {
-    const std::array<Index, 4>& v = edges_[a.edge].x;
+  each_row(x, [&](const Row& row) {
+    const Index e = row.edge.edge;
+    const std::array<Index, 4>& v = edges_[e].x;
+    const std::span<const Vec3> g = row.gradients;
     for (std::size_t i = 0; i < g.size(); ++i)
       for (std::size_t j = 0; j <= i; ++j)
-        if (const std::size_t slot = a.slots[slot_of(i, j)]; slot != no_slot)
+        if (const std::size_t slot = row.edge.slots[slot_of(i, j)]; slot != no_slot)
           add_outer(A, slot, number_[v[i]] < number_[v[j]], g[i], g[j]);
     for (std::size_t p = 0; p < k; ++p) {
-      const double change = -w * changes[p + 1][a.edge];
+      const double change = -row.w * row.changes[p + 1][e];
       if (change == 0) continue;
       for (std::size_t i = 0; i < g.size(); ++i)
         if (number_[v[i]] != ShellEdge::none)
           for (std::size_t c = 0; c < 3; ++c)
             rest.B[p * n + 3 * number_[v[i]] + c] += change * g[i][static_cast<Eigen::Index>(c)];
-      for (std::size_t q = 0; q < k; ++q) rest.C[p * k + q] -= change * w * changes[q + 1][a.edge];
+      for (std::size_t q = 0; q < k; ++q) rest.C[p * k + q] -= change * row.w * row.changes[q + 1][e];
     }
-  };
-  for (const Active& a : active_) {
-    const std::array<Index, 4>& v = edges_[a.edge].x;
-    const Vec3 e = x[v[1]] - x[v[0]];
-    const double length = e.norm();
-    const Vec3 g = length > 1e-15 ? Vec3(a.w_s / length * e) : Vec3(Vec3::Zero());
-    add_row(a, std::array<Vec3, 2>{-g, g}, lengths_, a.w_s);
-    if (a.w_b <= 0) continue;
-    Hinge hinge = hinge_at(x[v[0]], x[v[1]], x[v[2]], x[v[3]], least_[a.edge]);
-    for (Vec3& h : hinge.gradient) h *= a.w_b;
-    add_row(a, hinge.gradient, angles_, a.w_b);
-  }
+  });
   for (std::size_t c = 0; c < ties_.size(); ++c) {
     const std::array<Mat3, 3> D = ties_[c].derivative(x);
     const Triangle& v = ties_[c].corners;
@@ -335,27 +330,14 @@ std::vector<double> ShellEnergy::response(std::span<const Vec3> x, std::span<con
     if (number_[v] == ShellEdge::none) return;
     for (std::size_t c = 0; c < 3; ++c) out[3 * number_[v] + c] += g[static_cast<Eigen::Index>(c)];
   };
-  // A row of J: g by the corners, -w times the change by each alpha.
-  const auto add_row = [&](const Active& a, std::span<const Vec3> g, const std::vector<std::vector<double>>& changes,
-                           double w) {
-    const std::array<Index, 4>& v = edges_[a.edge].x;
+  each_row(x, [&](const Row& row) {
+    const std::array<Index, 4>& v = edges_[row.edge.edge].x;
     double s = 0;
-    for (std::size_t i = 0; i < g.size(); ++i) s += g[i].dot(d[v[i]]);
+    for (std::size_t i = 0; i < row.gradients.size(); ++i) s += row.gradients[i].dot(d[v[i]]);
     if (s == 0) return;
-    for (std::size_t i = 0; i < g.size(); ++i) add(v[i], s * g[i]);
-    for (std::size_t p = 0; p < k; ++p) out[n + p] -= s * w * changes[p + 1][a.edge];
-  };
-  for (const Active& a : active_) {
-    const std::array<Index, 4>& v = edges_[a.edge].x;
-    const Vec3 e = x[v[1]] - x[v[0]];
-    const double length = e.norm();
-    const Vec3 g = length > 1e-15 ? Vec3(a.w_s / length * e) : Vec3(Vec3::Zero());
-    add_row(a, std::array<Vec3, 2>{-g, g}, lengths_, a.w_s);
-    if (a.w_b <= 0) continue;
-    Hinge hinge = hinge_at(x[v[0]], x[v[1]], x[v[2]], x[v[3]], least_[a.edge]);
-    for (Vec3& h : hinge.gradient) h *= a.w_b;
-    add_row(a, hinge.gradient, angles_, a.w_b);
-  }
+    for (std::size_t i = 0; i < row.gradients.size(); ++i) add(v[i], s * row.gradients[i]);
+    for (std::size_t p = 0; p < k; ++p) out[n + p] -= s * row.w * row.changes[p + 1][row.edge.edge];
+  });
   for (const ShellTie& tie : ties_) {
     const std::array<Mat3, 3> D = tie.derivative(x);
     Vec3 s = Vec3::Zero();

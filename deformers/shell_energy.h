@@ -132,6 +132,15 @@ class ShellEnergy {
   void measure(std::span<const Vec3> pose, std::vector<double>& lengths, std::vector<double>& angles) const;
   void weigh(std::span<const Vec3> rest, ShellStiffness stiffness);
   void learn();
+  /// A row of J with its residual: gradients by the corners of `edge`, and by each alpha -w times the change there.
+  struct Row {
+    const Active& edge;
+    std::span<const Vec3> gradients;
+    double residual, w;
+    const std::vector<std::vector<double>>& changes;
+  };
+  template <class Visit>
+  void each_row(std::span<const Vec3> x, const Visit& visit) const;
   double stretch(const Active& a, std::span<const Vec3> x) const;
   std::vector<Vec3> volume_gradient(std::span<const Vec3> x) const;
   double volume_residual(std::span<const Vec3> x) const;

@@ -179,6 +179,17 @@ TEST(ShellEnergy, TheNormalMatrixIsTheSecondDerivativeWhereTheResidualsAreZero) 
   H.bottomRightCorner(2, 2) = C;
   H += u * u.transpose();
 
+  // The response to a displacement of all vertices, held ones too: of the free ones alone it is this matrix times it.
+  std::vector<Vec3> d(p.mesh.size(), Vec3::Zero());
+  Eigen::VectorXd free = Eigen::VectorXd::Zero(n + 2);
+  for (std::size_t v = 0; v < d.size(); ++v) {
+    if (number[v] == ShellEdge::none) continue;
+    d[v] = vector(11, v);
+    free.segment<3>(3 * number[v]) = d[v];
+  }
+  std::vector<double> response = energy.response(p.poses[2], d);
+  EXPECT_LT((Eigen::Map<Eigen::VectorXd>(response.data(), n + 2) - H * free).norm(), 1e-9 * (H * free).norm());
+
   const double h = 1e-6;
   const auto gradient_at = [&](Eigen::Index i, double by) {
     std::vector<Vec3> x = p.poses[2];
