@@ -164,7 +164,8 @@ void ShellSolver::prepare(const ShellHeld& held) {
   held_ = held;
   if (!same_pattern) number_unknowns();
   model_->which.clear();
-  for (std::size_t k = 0; k < alpha_.size(); ++k)
+  const bool anything = !held_.vertices.empty() || !held_.ties.empty();
+  for (std::size_t k = 0; k < alpha_.size() && anything; ++k)
     if (k >= held_.weights.size() || !held_.weights[k]) model_->which.push_back(k);
   kept_.usable = false;
 }

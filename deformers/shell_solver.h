@@ -25,10 +25,13 @@ namespace sinew {
 
 /// What is held and how stiff the shell is: all that does not change while a handle is dragged.
 struct ShellHeld {
-  std::vector<Index> vertices;                 ///< each once
-  std::vector<ShellTie> ties;                  ///< points between vertices
-  std::vector<double> stiffness;               ///< of each vertex, 1: as it is; empty: everywhere
-  std::vector<std::optional<double>> weights;  ///< of examples; those missing or without a number are unknowns
+  std::vector<Index> vertices;    ///< each once
+  std::vector<ShellTie> ties;     ///< points between vertices
+  std::vector<double> stiffness;  ///< of each vertex, 1: as it is; empty: everywhere
+  std::vector<std::optional<double>>
+      weights;  ///< of examples; those missing or without a number are unknowns, or 0 where
+                ///< nothing is held that could tell
+                ///< or, where nothing is held that could tell, stay as they are
   bool operator==(const ShellHeld&) const = default;
 };
 

@@ -51,7 +51,7 @@ std::function<int()> declare_blend(Arguments& arguments) {
   arguments.positionals("POSE", *poses,
                         "Poses with its points and faces: files, folders of them, glTF with morph targets");
   arguments.option("-w,--weights", "A,B,...", *weights,
-                   "How much of each pose: 0 none, 1 all, beyond that more; those not given are found", true);
+                   "How much of each pose: 0 none, 1 all, beyond that more; of those not given none", true);
   arguments.option("--of", "SHAPE", *of,
                    "What the poses are poses of, where that is not REST: how it changes is applied to REST");
   arguments.option("-o,--output", "OUT", options->out.path, "File to write; - with --to", true);
