@@ -31,8 +31,8 @@ class ShellDeformer final : public Deformer {
         mesh_(std::move(mesh)),
         coarse_(std::move(coarse)) {
     make_solver();
-    publish();
     bind_own_points();
+    publish();
   }
 
   const SkinWeights& weights() const override { return weights_; }
@@ -45,7 +45,9 @@ class ShellDeformer final : public Deformer {
 
   std::vector<double> map_energy() const override {
     std::vector<double> out = solver_->energy().vertex_energies(solver_->x());
-    return coarse_ ? coarse_->fine_values(out) : out;
+    if (coarse_) out = coarse_->fine_values(out);
+    out.resize(pose_.size(), 0);
+    return out;
   }
 
   Structure structure() const override {
@@ -83,7 +85,6 @@ class ShellDeformer final : public Deformer {
     if (coarse_) coarse_->forget_rest();
     make_solver();
     start_from(Pose(pose_));
-    bind_own_points();
   }
 
   SolveReport solve(const Constraints& constraints, const SolveOptions& options) override {
@@ -120,11 +121,12 @@ class ShellDeformer final : public Deformer {
   void reset() override {
     solver_->reset();
     held_.clear();
+    for (Loose& loose : loose_) loose.held.reset();
     publish();
   }
 
   void start_from(const Pose& pose) override {
-    CHECK(pose.size() == mesh_.size(), pose.size(), mesh_.size());
+    CHECK(pose.size() == mesh_.size() + loose_.size(), pose.size(), mesh_.size(), loose_.size());
     std::vector<Vec3> x;
     for (Index v = 0; v < solver_->x().size(); ++v) {
       const Index fine = coarse_ ? coarse_->vertices()[v] : v;
@@ -165,26 +167,46 @@ class ShellDeformer final : public Deformer {
                                          options_.stiffness, normalised(mesh_.source));
   }
 
-  /// Points of vertices follow these; those on no face the nearest triangle.
+  /// A point on no face: it has a map of its own, that of the nearest place of the surface unless it is held.
+  struct Loose {
+    Index point = 0;
+    Triangle corners{};
+    Vec3 weights = Vec3::Zero();
+    std::optional<Held> held = {};
+  };
+
   void bind_own_points() {
-    std::vector<Vec3> loose;
-    for (Index i = 0; i < rest_->size(); ++i)
-      if (mesh_.vertex_of_point[i] == ShellMesh::none) loose.push_back(rest_->positions[i]);
-    const SkinWeights others = loose.empty() ? SkinWeights{} : surface().bind(loose, Gradients::No);
+    std::vector<Vec3> places;
+    loose_.clear();
+    for (Index i = 0; i < rest_->size(); ++i) {
+      if (mesh_.vertex_of_point[i] != ShellMesh::none || !rest_->positions[i].allFinite()) continue;
+      loose_.push_back({i});
+      places.push_back(rest_->positions[i]);
+    }
+    if (!loose_.empty()) {
+      const std::vector<ShellSurface::Foot> feet = surface().feet(places);
+      for (std::size_t k = 0; k < loose_.size(); ++k) {
+        loose_[k].corners = mesh_.triangles[feet[k].triangle];
+        loose_[k].weights = feet[k].weights;
+      }
+    }
     weights_ = {};
-    for (std::size_t i = 0, k = 0; i < rest_->size(); ++i) {
-      if (const Index v = mesh_.vertex_of_point[i]; v != ShellMesh::none) {
-        weights_.maps.push_back(v);
+    Index next = static_cast<Index>(mesh_.size());
+    for (std::size_t i = 0; i < rest_->size(); ++i) {
+      const Index v = mesh_.vertex_of_point[i];
+      if (v != ShellMesh::none || rest_->positions[i].allFinite()) {
+        weights_.maps.push_back(v != ShellMesh::none ? v : next++);
         weights_.weights.push_back(1);
-      } else {
-        for (std::uint64_t e = others.offsets[k]; e < others.offsets[k + 1]; ++e) {
-          weights_.maps.push_back(others.maps[e]);
-          weights_.weights.push_back(others.weights[e]);
-        }
-        ++k;
       }
       weights_.offsets.push_back(weights_.maps.size());
     }
+  }
+
+  /// The map of a loose point, ascending by point; null where the point is at a vertex, or not finite.
+  Loose* loose_at(Index point) {
+    const auto at = std::lower_bound(loose_.begin(), loose_.end(), point,
+                                     [](const Loose& loose, Index wanted) { return loose.point < wanted; });
+    return at != loose_.end() && at->point == point ? &*at : nullptr;
   }
 
   /// Which vertices are held and where, and how stiff all are. One that is fixed and of a handle goes with the handle;
@@ -192,8 +214,11 @@ class ShellDeformer final : public Deformer {
   void hold(const Constraints& constraints) {
     std::vector<bool> taken(mesh_.size(), false);
     std::vector<Held> held;
+    for (Loose& loose : loose_) loose.held.reset();
     const auto add = [&](Index point, const Vec3& target, Index handle) {
       const Index v = mesh_.vertex_of_point[point];
+      if (Loose* loose = loose_at(point); loose != nullptr && !loose->held && target.allFinite())
+        loose->held = Held{0, target, handle};
       if (v == ShellMesh::none || taken[v]) return;
       taken[v] = true;
       held.push_back({v, target.allFinite() ? target : moved(v), handle});
@@ -310,13 +335,23 @@ class ShellDeformer final : public Deformer {
     meet_exactly();
   }
 
-  /// What is held is where it is to be, whatever the structure; what is fixed is not turned either.
+  /// What is held is where it is to be, whatever the structure; what is fixed is not turned either. Adds the maps of
+  /// loose points.
   void meet_exactly() {
-    for (const Held& h : held_) {
-      if (h.handle == Held::fixed)
-        pose_[h.vertex] = identity_map();
+    const auto meet = [](const Held& held, const Vec3& rest, Affine& map) {
+      if (held.handle == Held::fixed)
+        map = identity_map();
       else
-        pose_[h.vertex].col(3) = h.target - pose_[h.vertex].leftCols<3>() * mesh_.rest()[h.vertex];
+        map.col(3) = held.target - map.leftCols<3>() * rest;
+    };
+    for (const Held& h : held_) meet(h, mesh_.rest()[h.vertex], pose_[h.vertex]);
+    pose_.resize(mesh_.size());
+    for (const Loose& loose : loose_) {
+      Affine map = identity_map();
+      for (std::size_t k = 0; k < 3; ++k)
+        map += loose.weights[static_cast<Eigen::Index>(k)] * (pose_[loose.corners[k]] - identity_map());
+      if (loose.held) meet(*loose.held, rest_->positions[loose.point], map);
+      pose_.push_back(map);
     }
   }
 
@@ -371,7 +406,8 @@ class ShellDeformer final : public Deformer {
   std::unique_ptr<ShellCoarse> coarse_;  ///< null: the shape's own vertices are solved for
   std::unique_ptr<ShellSolver> solver_;
   std::unique_ptr<ShellSolver>
-      fine_solver_;                 ///< of all vertices, where they are solved for at the end; null until then
+      fine_solver_;  ///< of all vertices, where they are solved for at the end; null until then
+  std::vector<Loose> loose_;
   std::vector<Held> held_;          ///< ascending
   std::vector<double> stiffness_;   ///< of each vertex; empty: all as they are
   std::vector<Index> solver_held_;  ///< of what the solver holds, which of held_ it is
