@@ -110,7 +110,7 @@ Pose vertex_maps(std::span<const Vec3> rest, std::span<const Vec3> x, std::span<
 }
 
 Vec3 nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 inside = coordinates_in(p, a, b, c).weights;
+  Vec3 inside = coordinates_in(p, a, b, c).weights;
   if (inside.minCoeff() >= 0) return inside;
   // Outside: on the nearest of the three sides.
   const Vec3* corners[] = {&a, &b, &c};

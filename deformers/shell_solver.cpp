@@ -62,18 +62,18 @@ struct ShellSolver::Model {
   /// B, C and u of the unknown weights alone; then all that a solve needs beside A's factor.
   void make_ready(const SparseCholesky& A) {
     const auto all = static_cast<Eigen::Index>(s.alpha_.size());
-    const Eigen::Map<const Matrix> all_B(normal.B.data(), n(), all), all_C(normal.C.data(), all, all);
-    const Eigen::Map<const Vector> all_u(normal.u.data(), n() + all);
+    const Eigen::Map<const Matrix> B_all(normal.B.data(), n(), all), C_all(normal.C.data(), all, all);
+    const Eigen::Map<const Vector> u_all(normal.u.data(), n() + all);
     B.resize(n(), k());
     Matrix C(k(), k());
     u.resize(n() + k());
-    u.head(n()) = all_u.head(n());
+    u.head(n()) = u_all.head(n());
     for (Eigen::Index p = 0; p < k(); ++p) {
       const auto i = static_cast<Eigen::Index>(which[static_cast<std::size_t>(p)]);
-      B.col(p) = all_B.col(i);
-      u[n() + p] = all_u[n() + i];
+      B.col(p) = B_all.col(i);
+      u[n() + p] = u_all[n() + i];
       for (Eigen::Index q = 0; q < k(); ++q)
-        C(p, q) = all_C(i, static_cast<Eigen::Index>(which[static_cast<std::size_t>(q)]));
+        C(p, q) = C_all(i, static_cast<Eigen::Index>(which[static_cast<std::size_t>(q)]));
     }
     solve_columns(A);
     // Where handles leave weights undetermined the complement is singular: a damping keeps the step short there.
