@@ -31,7 +31,7 @@ add_dependencies(sinew_deformers sinew-tets)  # which starts it
 
 # The editor without its window: everything that can be tested without a display.
 set(SINEW_EDITOR_CORE background commands figures keys lod manipulation marks navigation point_set preferences repeatable
-                      session session_drag session_edit session_files session_motion session_time tools view)
+                      session session_drag session_edit session_examples session_files session_motion session_time tools view)
 list(TRANSFORM SINEW_EDITOR_CORE PREPEND ${CMAKE_SOURCE_DIR}/apps/editor/)
 list(TRANSFORM SINEW_EDITOR_CORE APPEND .cpp)
 add_library(sinew_editor_core STATIC ${SINEW_EDITOR_CORE})

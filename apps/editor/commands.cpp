@@ -38,6 +38,13 @@ bool has_cut(const Context& c) {
 bool driven(const Context& c) {
   return c.session.layer() != nullptr && c.session.layer()->markers.has_value();
 }
+bool takes_poses(const Context& c) {
+  return c.session.has_input() &&
+         (c.session.layer() == nullptr || (c.session.method() != nullptr && c.session.method()->parts.examples));
+}
+bool posed(const Context& c) {
+  return c.session.layer() != nullptr && !c.session.layer()->examples.empty();
+}
 bool layered(const Context& c) {
   return c.session.layer() != nullptr;
 }
@@ -68,6 +75,9 @@ std::string why_not_rigid(const Context& c) {
 }
 std::string why_not_stiff(const Context& c) {
   return why_not_known(c, "Stiffness is", &Method::Parts::stiffness);
+}
+std::string why_not_posed(const Context& c) {
+  return c.session.layer() == nullptr ? "" : why_not_known(c, "Poses are", &Method::Parts::examples);
 }
 std::string why_not_cut(const Context& c) {
   return why_not_known(c, "Cuts are", &Method::Parts::cuts);
@@ -139,8 +149,9 @@ bool has_tool(const Context& c) {
 
 using C = Context;
 const std::array table{
-    Command{"file.open", "Open...", "File", "Ctrl+O", "Open a shape, an edit, or a motion that is to drive a solid.",
-            always, [](C& c) { c.request(Request::Open); }},
+    Command{"file.open", "Open...", "File", "Ctrl+O",
+            "Open a shape, an edit, a folder of poses, or a motion for a solid.", always,
+            [](C& c) { c.request(Request::Open); }},
     Command{"file.open_run", "Open all frames", "File", "", "Open all numbered files that this one is one of.", in_run,
             [](C& c) { c.session.open(pattern_of_run(c.session.input_path())); }},
     Command{"file.save", "Save edit", "File", "Ctrl+S", "Write the edit to its file.", open, save, nullptr, true},
@@ -235,8 +246,16 @@ const std::array table{
             has_cut, [](C& c) { c.session.remove_cut(); }},
     Command{"layer.remove_motion", "Remove motion", "Layer", "", "Let no markers drive the chosen layer any more.",
             driven, [](C& c) { c.session.remove_markers(); }},
+    Command{"layer.add_poses", "Add poses...", "Layer", "", "Blend the chosen layer from other poses of the shape.",
+            takes_poses, [](C& c) { c.request(Request::AddPoses); }, nullptr, true, why_not_posed},
+    Command{"layer.pin_weights", "Pin all weights", "Layer", "", "Hold the weights of all examples where they are.",
+            posed, [](C& c) { c.session.pin_examples(); }},
+    Command{"layer.free_weights", "Free all weights", "Layer", "", "Let the handles find the weights of all examples.",
+            posed, [](C& c) { c.session.free_examples(); }},
+    Command{"layer.rest_weights", "Weights at rest", "Layer", "", "Hold the weights of all examples at 0.", posed,
+            [](C& c) { c.session.rest_examples(); }},
     Command{"layer.raise", "Raise layer", "Layer", "", "Let the chosen layer work after the one above it.", layered,
-            [](C& c) { c.session.move_layer(c.session.chosen_layer(), 1); }},
+            [](C& c) { c.session.move_layer(c.session.chosen_layer(), 1); }, nullptr, true},
     Command{"layer.lower", "Lower layer", "Layer", "", "Let the chosen layer work before the one below it.", layered,
             [](C& c) { c.session.move_layer(c.session.chosen_layer(), -1); }},
     Command{"layer.remove", "Remove layer", "Layer", "", "Remove the chosen layer.", layered,

@@ -15,7 +15,19 @@
 
 namespace sinew::editor {
 
-enum class Request { Open, SaveAs, Export, Screenshot, Palette, Keymap, About, Preferences, NavigationChoice, Quit };
+enum class Request {
+  Open,
+  AddPoses,
+  SaveAs,
+  Export,
+  Screenshot,
+  Palette,
+  Keymap,
+  About,
+  Preferences,
+  NavigationChoice,
+  Quit
+};
 
 /// All that a command may touch.
 struct Context {

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "deformers/methods.h"
+#include "engine/io/poses.h"
 #include "shaders/shared.h"
 
 namespace sinew::editor {
@@ -60,8 +61,8 @@ Editor::Editor(const EditorOptions& options)
       context_{session_, view_, preferences_, [this](Request request) { answer(request); }},
       stage_(*device_, paths_),
       mouse_(context_),
-      ui_{context_, stage_, mouse_},
-      to_open_(options.files.begin(), options.files.end()) {
+      ui_{context_, stage_, mouse_} {
+  open_later(options.files);
   LoadedPreferences loaded = load_preferences(preferences_path_);
   preferences_ = saved_preferences_ = loaded.preferences;
   if (!loaded.notice.empty()) session_.notify(Severity::Warning, loaded.notice);
@@ -147,7 +148,12 @@ void Editor::deliver(const InputEvent& event) {
   const std::uint64_t before = session_.asked();
   switch (event.what) {
     case InputEvent::What::Close: quit(); return;
-    case InputEvent::What::Drop: to_open_.insert(to_open_.end(), event.paths.begin(), event.paths.end()); return;
+    case InputEvent::What::Drop: {
+      std::vector<std::string> paths = event.paths;
+      std::sort(paths.begin(), paths.end(), io::in_natural_order);
+      open_later(std::move(paths));
+      return;
+    }
     case InputEvent::What::Key: press_key(event); break;
     default: break;
   }

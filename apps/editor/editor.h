@@ -39,9 +39,12 @@ class Editor {
 
  private:
   void answer(Request request);
-  void open(const std::string& path);
+  void open(const std::vector<std::string>& paths);
+  void open_later(std::vector<std::string> paths);
+  void unless_unsaved(const std::string& path, std::function<void()> open);
   void open_next();
   void choose_file_to_open();
+  void choose_poses();
   void choose_file_to_save();
   void choose_file_to_export();
   void save_screenshot(const std::string& path);
@@ -79,7 +82,7 @@ class Editor {
   Ui ui_;
   DetailController detail_;
 
-  std::deque<std::string> to_open_;
+  std::deque<std::vector<std::string>> to_open_;  ///< what was opened together
   bool quit_ = false;
   int frames_wanted_ = 2;
   bool shape_moved_ = false;

@@ -31,7 +31,7 @@ std::string beside(const std::string& path, const std::string& suffix, const std
   return (from.parent_path() / (from.stem().string() + suffix + extension)).string();
 }
 
-/// What goes onto the shape that is open, in place of taking its place.
+/// An edit or a motion: no shape.
 bool goes_on_top(const std::string& path) {
   return fs::path(path).extension() == ".json" || io::is_motion(path);
 }
@@ -41,6 +41,7 @@ bool goes_on_top(const std::string& path) {
 void Editor::answer(Request request) {
   switch (request) {
     case Request::Open: choose_file_to_open(); break;
+    case Request::AddPoses: choose_poses(); break;
     case Request::SaveAs: choose_file_to_save(); break;
     case Request::Export: choose_file_to_export(); break;
     case Request::Screenshot: {
@@ -51,6 +52,8 @@ void Editor::answer(Request request) {
                       .extensions = {"png"},
                       .start = path,
                       .note = {},
+                      .folder_action = {},
+                      .folder_help = {},
                       .done = [this](const std::string& chosen) { save_screenshot(chosen); }});
       break;
     }
@@ -63,19 +66,39 @@ void Editor::answer(Request request) {
   }
 }
 
-void Editor::open_next() {
-  if (to_open_.empty() || session_.job() || !ui_.ask.text.empty()) return;
-  const std::string path = to_open_.front();
-  to_open_.pop_front();
-  open(path);
+/// Shapes that were named together are a shape and its poses; anything else is opened by itself after them.
+void Editor::open_later(std::vector<std::string> paths) {
+  const auto others = std::stable_partition(paths.begin(), paths.end(), [](const auto& p) { return !goes_on_top(p); });
+  if (others != paths.begin()) to_open_.emplace_back(paths.begin(), others);
+  for (auto path = others; path != paths.end(); ++path) to_open_.push_back({*path});
 }
 
-void Editor::open(const std::string& path) {
-  const auto open_it = [this, path] {
+void Editor::open_next() {
+  if (session_.job() || !ui_.ask.text.empty()) return;
+  if (const std::optional<std::string> shape = session_.take_declined())
+    unless_unsaved(*shape, [this, path = *shape] { session_.open_shape(path); });
+  if (to_open_.empty() || session_.job() || !ui_.ask.text.empty()) return;
+  const std::vector<std::string> paths = to_open_.front();
+  to_open_.pop_front();
+  open(paths);
+}
+
+void Editor::open(const std::vector<std::string>& paths) {
+  if (session_.joins(paths)) {
     view_.manipulation.reset();
-    session_.open(path);
+    session_.open(paths);
+  } else {
+    unless_unsaved(paths.front(), [this, paths] { session_.open(paths); });
+  }
+  frames_wanted_ = 2;
+}
+
+void Editor::unless_unsaved(const std::string& path, std::function<void()> open) {
+  const auto open_it = [this, open = std::move(open)] {
+    view_.manipulation.reset();
+    open();
   };
-  if (session_.dirty() && !goes_on_top(path))
+  if (session_.dirty())
     ui_.ask = {"The edit is not saved. Open " + fs::path(path).filename().string() + " without saving it?",
                "Open without saving", open_it};
   else
@@ -92,7 +115,21 @@ void Editor::choose_file_to_open() {
                   .extensions = extensions(false),
                   .start = start.empty() ? "." : fs::absolute(start).parent_path().string(),
                   .note = {},
-                  .done = [this](const std::string& path) { to_open_.push_back(path); }});
+                  .folder_action = "Open this folder",
+                  .folder_help = "The shapes in it are poses: of the shape that is open, else of the first of them",
+                  .done = [this](const std::string& path) { open_later({path}); }});
+}
+
+void Editor::choose_poses() {
+  ui_.files.open({.title = "Add poses",
+                  .action = "Add pose",
+                  .save = false,
+                  .extensions = extensions(false),
+                  .start = fs::path(session_.input_path()).parent_path().string(),
+                  .note = "Poses have the points and faces of the shape, moved.",
+                  .folder_action = "Add this folder",
+                  .folder_help = "All shapes in it are poses",
+                  .done = [this](const std::string& path) { session_.add_poses(path); }});
 }
 
 void Editor::choose_file_to_save() {
@@ -104,6 +141,8 @@ void Editor::choose_file_to_save() {
                   .extensions = {"json"},
                   .start = path,
                   .note = "A small file with marks and motions; `sinew deform` bends the same shape by it.",
+                  .folder_action = {},
+                  .folder_help = {},
                   .done = [this](const std::string& chosen) { session_.save_edit(chosen); }});
 }
 
@@ -115,6 +154,8 @@ void Editor::choose_file_to_export() {
                   .extensions = extensions(true),
                   .start = beside(session_.input_path(), "-bent", extension),
                   .note = "Positions and normals change; everything else is written as it was read.",
+                  .folder_action = {},
+                  .folder_help = {},
                   .done = [this](const std::string& chosen) { session_.export_shape(chosen, true); }});
 }
 

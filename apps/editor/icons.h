@@ -42,6 +42,7 @@ inline constexpr const char* to_start = "\uf049";
 inline constexpr const char* to_end = "\uf050";
 inline constexpr const char* key = "\uf084";
 inline constexpr const char* cut = "\uf0c4";
+inline constexpr const char* pin = "\uf08d";
 inline constexpr const char* cube = "\uf1b2";
 
 /// First and last code point of the font.

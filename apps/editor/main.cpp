@@ -41,7 +41,7 @@ int run(const sinew::editor::EditorOptions& options) {
 int main(int argc, char** argv) {
   sinew::editor::EditorOptions options;
   CLI::App app("Bends anything that is made of points, in a window.", "sinew-editor");
-  app.add_option("FILE", options.files, "shapes or edits (EDIT.json) to open")->type_name("");
+  app.add_option("FILE", options.files, "a shape with its poses, edits (EDIT.json) or motions to open")->type_name("");
   app.add_option("--record", options.window.record, "writes mouse and keys there, for --play")->type_name("FILE");
   app.add_option("--play", options.window.play, "plays recorded mouse and keys")->type_name("FILE");
   app.add_option("--times", options.times, "writes there how long each picture of a drag took after its mouse event")
@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
   app.add_option("--size", size, "of the window, 1280x720 unless given")->type_name("WxH");
   app.set_version_flag("--version", std::string("sinew-editor ") + SINEW_VERSION);
   app.footer(
-      "Examples:\n  sinew-editor scan.ply\n  sinew-editor scan.ply lift.json\n\n"
+      "Examples:\n  sinew-editor scan.ply\n  sinew-editor scan.ply lift.json\n  sinew-editor horse.obj poses/\n\n"
       "Environment: SINEW_VALIDATION=1 checks the use of Vulkan; any message makes the exit status 1.\n"
       "Exit status: 0 ok, 1 failed, 2 usage.");
   try {

@@ -190,6 +190,11 @@ std::vector<Notice> Session::hints() const {
     if (layer->handles.empty() && !layer->fixed.empty())
       out.push_back({Severity::Hint, "Now select the points to pull, and make them a handle."});
   }
+  if (const std::vector<ExampleView> poses = examples(); !poses.empty() && layer()->on && layer()->handles.empty()) {
+    const bool free =
+        std::none_of(poses.begin(), poses.end(), [](const auto& pose) { return pose.pinned.has_value(); });
+    if (free) out.push_back({Severity::Hint, "Drag the bar of an example to blend, or mark handles and drag them."});
+  }
   if (!figures_.message.empty()) out.push_back({Severity::Warning, figures_.message});
   return out;
 }

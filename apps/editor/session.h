@@ -62,6 +62,13 @@ struct HandleView {
   std::size_t points = 0;
 };
 
+/// An example of the chosen layer.
+struct ExampleView {
+  std::string name, path;        ///< of the pose, of its file
+  std::optional<double> pinned;  ///< what the user set it to; nothing: the solver finds it
+  std::optional<double> weight;  ///< that is shown; nothing while the examples are not read
+};
+
 /// "walk.0001.obj" as "walk.%04d.obj": the run that a numbered file may be one of; empty where it has no number.
 std::string pattern_of_run(const std::string& path);
 
@@ -84,7 +91,20 @@ class Session {
   /// Opens a shape, or an EDIT.json together with its "inputs" (an edit without inputs is laid on the present shape),
   /// or a motion (io::is_motion), which becomes the markers of the chosen layer: one step of history. What is open
   /// stays until the new one is there, and stays if it can't be read (a notice). Replaces a running open.
-  void open(const std::string& path);
+  ///
+  /// A folder or several shapes are poses of what is open (of the first of them, where nothing is): examples of the
+  /// chosen layer, of a new one where there is none; one step of history. So is one shape over a layer that takes
+  /// examples where it corresponds (poses.h); where not, it waits in take_declined().
+  void open(const std::string& path) { open(std::vector{path}); }
+  void open(const std::vector<std::string>& paths);
+  /// Whatever else it could be.
+  void open_shape(const std::string& path);
+  /// Poses and nothing else: what is none is a notice.
+  void add_poses(const std::string& path);
+  /// Whether what is open would stay with open(paths), or may.
+  bool joins(const std::vector<std::string>& paths) const;
+  /// A shape that open() found to be no pose of what is open; to be opened by open_shape() if the user wants that.
+  std::optional<std::string> take_declined();
   /// Shows a shape that is already there, under a name.
   void adopt(std::shared_ptr<const Shape> shape, const std::string& path, document::Project project = {});
   void close();
@@ -142,6 +162,19 @@ class Session {
   const document::Markers* markers() const;
   /// Of all layers, where they are at frame(); coordinates relative to the input's origin.
   std::vector<document::Markers::Picture> marker_pictures() const;
+
+  // Examples of the chosen layer
+
+  std::vector<ExampleView> examples() const;
+  /// Each is one step of history. A weight is asked for at the frame shown where the layer has keys or moves.
+  void pin_example(std::size_t example, std::optional<double> weight);  ///< nothing lets it go
+  void pin_examples();                                                  ///< all of them where they are
+  void free_examples();
+  void rest_examples();  ///< all pinned at 0
+  void remove_example(std::size_t example);
+  /// A drag of a weight: like one of a handle, ended by end_drag() or cancel_drag(). False where there is none yet.
+  bool begin_weight(std::size_t example);
+  void weight_to(double weight);
 
   // What is shown
   // ------------------------------------------------------------------------------------------------------
@@ -255,6 +288,8 @@ class Session {
   };
   struct Drag {
     std::size_t handle = 0;
+    std::optional<std::size_t> example;  ///< whose weight is dragged, in place of a handle
+    std::string label = "Drag handle";
     document::Project now;
     document::Motion before;                   ///< the handle's, at the frame
     Vec3 centre = Vec3::Zero();                ///< mean of the handle's points where the layer starts
@@ -264,6 +299,11 @@ class Session {
     bool moved = false, unsettled = false;
   };
   struct Opened;
+  /// What is to be opened next.
+  struct Opening {
+    enum class As { Either, Shape, Poses, FirstPoses } as = As::Either;
+    std::vector<std::string> paths;
+  };
   /// What waits until the answer is settled.
   struct Waiting {
     enum class What { Save, Export } what = What::Save;
@@ -271,6 +311,16 @@ class Session {
     bool force = false;
   };
 
+  void open_next(Opening opening);
+  void open_first(const std::vector<std::string>& paths);
+  std::optional<document::Layer> layer_to_pose();
+  void open_poses(const Opening& opening);
+  void take_poses(const std::vector<std::string>& files, std::size_t poses, bool first);
+  std::vector<std::optional<double>> asked_weights() const;
+  std::optional<std::vector<std::optional<double>>> known_weights() const;
+  document::Layer with_weights(std::vector<std::optional<double>> weights) const;
+  void set_weights(std::vector<std::optional<double>> weights, const std::string& label);
+  Drag drag_from_here();
   std::optional<document::Layer> layer_to_drive(const std::string& path);
   void open_motion(const std::string& path);
   void take_motion(const document::Markers& markers);
@@ -280,10 +330,11 @@ class Session {
   void show_frame(document::SolveAnswer answer);
   void advance();
   bool keyed() const;
-  document::Layer keyed_here() const;
+  document::Layer keyed_here(bool of_weights = false) const;
   document::Motion motion_now(std::size_t handle) const;
   const document::LayerResult* shown_layer() const;
-  void open_now(const std::string& path);
+  void open_now(const Opening& opening);
+  void read(const std::string& path);
   void show(Opened opened);
   void apply(document::Project project, const std::string& label);
   void project_changed();
@@ -356,7 +407,8 @@ class Session {
   std::optional<std::vector<Vec3>> handle_centres_;
   std::shared_ptr<const Neighbourhood> neighbourhood_;
   std::vector<std::function<void()>> after_neighbourhood_;
-  std::optional<std::string> next_open_;
+  std::optional<Opening> next_open_;
+  std::optional<std::string> declined_;
   std::vector<Waiting> waiting_;
   std::unique_ptr<Background> background_, measuring_;
   std::unique_ptr<document::SolverThread> solver_;  ///< last: it goes first

@@ -61,11 +61,26 @@ document::Motion Session::motion_now(std::size_t handle) const {
   return motion_at(now, handle, frame_);
 }
 
-/// The chosen layer with a key at the frame shown that changes nothing.
-document::Layer Session::keyed_here() const {
+/// The chosen layer with a key at the frame shown that changes nothing. `of_weights`: the weights of its examples will
+/// be set there; those that it has without keys then hold at its own frame, like the motion of a handle.
+document::Layer Session::keyed_here(bool of_weights) const {
   std::vector<document::Motion> motions;
   for (std::size_t h = 0; h < layer()->handles.size(); ++h) motions.push_back(motion_now(h));
-  return with_key(*layer(), frame_, frames().front(), motions);
+  document::Layer out = *layer();
+  const bool weighted = std::any_of(out.keys.begin(), out.keys.end(),
+                                    [](const document::Key& key) { return !key.example_weights.empty(); });
+  const bool pinned = std::any_of(out.example_weights.begin(), out.example_weights.end(),
+                                  [](const auto& weight) { return weight.has_value(); });
+  if (of_weights && pinned && out.keys.empty()) {
+    std::vector<document::Motion> own;
+    for (const document::HandleEdit& handle : out.handles) own.push_back(handle.motion);
+    out = with_key(out, base_frame(out, frames().front()), frames().front(), own);
+  }
+  const std::vector<std::optional<double>> weights = asked_weights();
+  out = with_key(out, frame_, frames().front(), motions);
+  for (document::Key& key : out.keys)
+    if (weighted && key.frame == frame_) key.example_weights = weights;
+  return out;
 }
 
 /// Means of the handles' points where the chosen layer starts from.
@@ -109,26 +124,31 @@ std::vector<HandleView> Session::handles() {
 
 bool Session::begin_drag(std::size_t handle) {
   end_drag();
-  play(false);
-  wanted_frame_ = frame_;  // what is shown is dragged, not what is on its way
   if (layer() == nullptr || handle >= layer()->handles.size() || !layer()->on) return false;
   handle_ = handle;
-  Drag drag;
+  Drag drag = drag_from_here();
   drag.handle = handle;
-  drag.now = project();
   drag.before = motion_now(handle);
   if (keyed()) drag.now.layers[layer_] = keyed_here();
   drag.centre = handle_rest_centres()[handle];
-  drag.first_ticket = ticket_ + 1;
-  drag.shown = shown_;
-  drag.settling = std::exchange(settling_, std::nullopt);
-  drag.unsettled = !answered_;
   drag_ = std::move(drag);
   return true;
 }
 
+Session::Drag Session::drag_from_here() {
+  play(false);
+  wanted_frame_ = frame_;  // what is shown is dragged, not what is on its way
+  Drag out;
+  out.now = project();
+  out.first_ticket = ticket_ + 1;
+  out.shown = shown_;
+  out.settling = std::exchange(settling_, std::nullopt);
+  out.unsettled = !answered_;
+  return out;
+}
+
 void Session::drag_to(const RigidMotion& motion) {
-  if (!drag_) return;
+  if (!drag_ || drag_->example) return;
   document::Motion& now = motion_at(drag_->now.layers[layer_], drag_->handle, frame_);
   const document::Motion wanted = moved(drag_->before, motion, drag_->centre, input_->origin);
   if (wanted == now) return;
@@ -146,7 +166,7 @@ void Session::end_drag() {
   }
   // First as if there had been no drag: usually that ends in the same place, and the file stays small.
   for (std::size_t i = layer_; i < drag.now.layers.size(); ++i) drag.now.layers[i].start = {};
-  history_.commit(std::move(drag.now), "Drag handle");
+  history_.commit(std::move(drag.now), drag.label);
   project_changed();
   // What moves begins at its keys, which are all that a file has.
   if (!moves()) settling_ = Settling{Settling::Step::FromRest, layer_, shown_, {}, {}};

@@ -73,8 +73,23 @@ struct Session::Opened {
   bool on_disk = true;  ///< the project is what the edit's file says
 };
 
-void Session::open(const std::string& path) {
-  next_open_ = absolute(path);
+void Session::open(const std::vector<std::string>& paths) {
+  open_next({Opening::As::Either, paths});
+}
+
+void Session::open_shape(const std::string& path) {
+  open_next({Opening::As::Shape, {path}});
+}
+
+void Session::add_poses(const std::string& path) {
+  open_next({Opening::As::Poses, {path}});
+}
+
+void Session::open_next(Opening opening) {
+  for (std::string& path : opening.paths) path = absolute(path);
+  if (opening.paths.empty()) return;
+  declined_.reset();
+  next_open_ = std::move(opening);
   if (background_->busy() && background_->can_cancel()) background_->cancel();
   start_waiting();
 }
@@ -90,11 +105,25 @@ static void prepare(auto& opened) {
   for (const document::Layer& layer : opened.project.layers) points_of(layer, *opened.selector);
 }
 
-void Session::open_now(const std::string& path) {
-  if (io::is_motion(path)) {
+void Session::open_now(const Opening& opening) {
+  const std::string& path = opening.paths.front();
+  const bool several = opening.paths.size() > 1 || fs::is_directory(path);
+  if (opening.as == Opening::As::Poses || opening.as == Opening::As::FirstPoses) {
+    open_poses(opening);
+  } else if (opening.as == Opening::As::Shape) {
+    read(path);
+  } else if (io::is_motion(path)) {
     open_motion(path);
-    return;
+  } else if (several && !has_input()) {
+    open_first(opening.paths);
+  } else if (!is_edit(path) && joins(opening.paths)) {
+    open_poses(opening);
+  } else {
+    read(path);
   }
+}
+
+void Session::read(const std::string& path) {
   const auto work = [this, path, present = input_, present_sequence = source_,
                      present_path = input_path_](const Tell& tell) -> Background::Finish {
     auto opened = std::make_shared<Opened>();

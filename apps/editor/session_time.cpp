@@ -129,7 +129,7 @@ void Session::show_frame(document::SolveAnswer answer) {
 }
 
 void Session::insert_key() {
-  if (layer() == nullptr || layer()->handles.empty()) {
+  if (layer() == nullptr || (layer()->handles.empty() && layer()->examples.empty())) {
     notify(Severity::Hint, "A key holds where the handles of a layer are: make a handle first.");
     return;
   }
@@ -148,6 +148,7 @@ void Session::delete_key(int frame) {
   // The last key's motions become the handles' own: the edit stays what it was there.
   if (layer.keys.size() == 1 && layer.keys[0].frame == frame) {
     for (std::size_t h = 0; h < layer.keys[0].handles.size(); ++h) layer.handles[h].motion = layer.keys[0].handles[h];
+    if (!layer.keys[0].example_weights.empty()) layer.example_weights = layer.keys[0].example_weights;
     with_places(layer, base);
     layer.frame = frame;
   } else {

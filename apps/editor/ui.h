@@ -73,9 +73,10 @@ Layout layout_of(const Ui& ui, float width, float height);
 void show_ui(Ui& ui);
 
 void show_menu(Ui& ui);
-void show_tools(Ui& ui);   ///< tool bar at the left, switches at the top
-void show_column(Ui& ui);  ///< scene, layer, marks, show
-void show_motion(Ui& ui);  ///< of the chosen layer: rows of its settings
+void show_tools(Ui& ui);     ///< tool bar at the left, switches at the top
+void show_column(Ui& ui);    ///< scene, layer, marks, show
+void show_motion(Ui& ui);    ///< of the chosen layer: rows of its settings
+void show_examples(Ui& ui);  ///< of the chosen layer: a row each, with its weight
 void show_status(Ui& ui);
 void show_timeline(Ui& ui);           ///< of what moves: buttons, frame, keys
 float timeline_height(const Ui& ui);  ///< pixels; 0 for a still

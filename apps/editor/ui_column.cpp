@@ -393,6 +393,7 @@ void show_column(Ui& ui) {
   ImGui::BeginChild("rows", {0, 0}, false, ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoNav);
   show_scene(ui);
   show_settings(ui);
+  show_examples(ui);
   show_marks(ui);
   show_look(ui);
   ImGui::Dummy({0, px(8)});

@@ -260,6 +260,14 @@ void FileDialog::show_foot() {
   const std::string action = ask_again_ ? "Replace " + name_ : request_.action;
   const float action_width = std::round(ImGui::CalcTextSize(action.c_str()).x) + px(32);
   const float cancel_width = std::round(ImGui::CalcTextSize("Cancel").x) + px(32);
+  if (!request_.folder_action.empty()) {
+    if (widget::button(request_.folder_action.c_str(), false)) {
+      close_ = true;
+      request_.done(folder_);
+    }
+    if (ImGui::IsItemHovered()) widget::tooltip(request_.folder_help);
+    ImGui::SameLine();
+  }
   ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - action_width - cancel_width - px(8));
   if (widget::button("Cancel", false) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false)) close_ = true;
   ImGui::SameLine(0, px(8));

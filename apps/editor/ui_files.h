@@ -11,12 +11,13 @@
 namespace sinew::editor {
 
 struct FileRequest {
-  std::string title;                    ///< "Open"
-  std::string action;                   ///< text of the button
-  bool save = false;                    ///< a name may be typed; an existing one asks once more
-  std::vector<std::string> extensions;  ///< lower case, without dot; files of others are not listed. Empty: all
-  std::string start;                    ///< a folder, or a file whose folder and name are the first
-  std::string note;                     ///< a sentence above the buttons; or empty
+  std::string title;                       ///< "Open"
+  std::string action;                      ///< text of the button
+  bool save = false;                       ///< a name may be typed; an existing one asks once more
+  std::vector<std::string> extensions;     ///< lower case, without dot; files of others are not listed. Empty: all
+  std::string start;                       ///< a folder, or a file whose folder and name are the first
+  std::string note;                        ///< a sentence above the buttons; or empty
+  std::string folder_action, folder_help;  ///< of a button that chooses the folder shown; empty: none
   std::function<void(const std::string& path)> done;
 };
 

@@ -200,6 +200,41 @@ bool slider(const char* id, float& value, float min, float max, const char* form
   return active;
 }
 
+BarUse bar(const char* id, double& value, double min, double max, bool lit) {
+  const bool typed = ImGui::TempInputIsActive(ImGui::GetID(id));
+  const ImVec4 unseen(0, 0, 0, 0);
+  ImGui::PushStyleColor(ImGuiCol_SliderGrab, unseen);
+  ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, unseen);
+  if (!typed) ImGui::PushStyleColor(ImGuiCol_Text, unseen);
+  ImGui::PushStyleVar(ImGuiStyleVar_GrabMinSize, 1);
+  BarUse out;
+  out.changed = ImGui::SliderScalar(id, ImGuiDataType_Double, &value, &min, &max, "%.2f");
+  ImGui::PopStyleVar();
+  ImGui::PopStyleColor(typed ? 2 : 3);
+  out.begun = ImGui::IsItemActivated();
+  out.ended = ImGui::IsItemDeactivated();
+  out.cancelled = ImGui::IsItemActive() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape), false);
+  if (out.cancelled && !typed) ImGui::ClearActiveID();
+  const ImVec2 from = ImGui::GetItemRectMin(), to = ImGui::GetItemRectMax();
+  if (!typed) {
+    const auto place = [&](double at) {
+      const double part = std::clamp((at - min) / (max - min), 0.0, 1.0);
+      return std::round(from.x + px(1) + static_cast<float>(part) * (to.x - from.x - px(2)));
+    };
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const float zero = place(0), end = place(value), edge = px(1);
+    list->AddRectFilled({std::min(zero, end), from.y + edge}, {std::max(zero, end), to.y - edge},
+                        packed(lit ? theme().accent : theme().quiet, lit ? 0.55f : 0.35f));
+    for (const double mark : {0.0, 1.0})
+      list->AddRectFilled({place(mark), from.y + edge}, {place(mark) + edge, to.y - edge}, packed(theme().faint, 0.6f));
+    char text[32];
+    ImFormatString(text, sizeof text, "%.2f", std::abs(value) < 0.005 ? 0 : value);
+    right_inside(text, theme().text);
+  }
+  field_edge();
+  return out;
+}
+
 bool icon_button(const char* icon, const char* id, bool chosen, float side, const ImVec4& color,
                  const std::string& help, const std::string& shortcut) {
   const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -44,6 +44,14 @@ bool checkbox(const char* id, bool& on);
 /// A bar to drag. True while it is dragged.
 bool slider(const char* id, float& value, float min, float max, const char* format);
 
+/// What happened to a bar in this frame.
+struct BarUse {
+  bool begun = false, changed = false, ended = false, cancelled = false;
+};
+/// A bar from 0 to `value`, with marks at 0 and 1, to drag between `min` and `max`; Ctrl and a click types any number.
+/// `lit`: in the accent's colour.
+BarUse bar(const char* id, double& value, double min, double max, bool lit);
+
 /// A square button of an icon, with a tooltip (`shortcut` may be empty). Colour: of the icon.
 bool icon_button(const char* icon, const char* id, bool chosen, float side, const ImVec4& color,
                  const std::string& help, const std::string& shortcut = "");

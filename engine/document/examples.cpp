@@ -15,14 +15,13 @@ void require_correspondence(const std::string& path, const Shape& rest, const Sh
 
 }  // namespace
 
-std::vector<io::NamedPose> examples_of(const Layer& layer, const Shape& rest,
-                                       const std::function<bool(double)>& progress) {
-  std::vector<io::NamedPose> out;
-  for (const std::string& path : layer.examples) {
+std::vector<Example> examples_of(const Layer& layer, const Shape& rest, const std::function<bool(double)>& progress) {
+  std::vector<Example> out;
+  for (std::size_t entry = 0; entry < layer.examples.size(); ++entry) {
     if (progress && !progress(0)) return out;
-    for (io::NamedPose& pose : io::read_poses(path)) {
+    for (io::NamedPose& pose : io::read_poses(layer.examples[entry])) {
       require_correspondence(pose.path, rest, *pose.shape);
-      out.push_back(std::move(pose));
+      out.push_back({std::move(pose), entry});
     }
   }
   if (layer.example_weights.size() > out.size())

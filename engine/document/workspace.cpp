@@ -234,10 +234,10 @@ bool Workspace::make(std::size_t i, const std::shared_ptr<const Shape>& base) {
   const std::shared_ptr<const Shape> solid = layer.tets.empty() ? nullptr : solid_of(layer, base->origin);
   StructureWishes wishes{points, layer.path.has_value(), cuts, solid, {}, {}};
   if (!layer.examples_of.empty()) wishes.examples_of = examples_of_another(layer, *base);
-  std::vector<std::string> names;
-  for (const io::NamedPose& example : examples_of(layer, *base, progress)) {
+  std::vector<ExampleName> names;
+  for (const Example& example : examples_of(layer, *base, progress)) {
     wishes.examples.push_back(example.shape);
-    names.push_back(example.name);
+    names.push_back({example.name, example.path, example.entry, layer.examples[example.entry]});
   }
   std::shared_ptr<Deformer> deformer = method.make(base, settings_of(layer, method), wishes, progress);
   if (deformer == nullptr) return false;
@@ -370,6 +370,12 @@ std::optional<Workspace::Wanted> Workspace::wanted(std::size_t i, int frame, con
   if (kept.markers != nullptr)
     if (Handle driven = kept.markers->handle(frame, rest.origin); !driven.places.empty())
       out.constraints.handles.push_back(std::move(driven));
+  // Where nothing pulls, there is nothing to find weights by.
+  if (out.constraints.handles.empty()) {
+    std::vector<std::optional<double>>& weights = out.constraints.example_weights;
+    weights.resize(kept.examples.size());
+    for (std::optional<double>& weight : weights) weight = weight.value_or(0);
+  }
   return out;
 }
 

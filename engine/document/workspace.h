@@ -22,6 +22,13 @@
 
 namespace sinew::document {
 
+/// An example of a layer: what to call it and where it comes from.
+struct ExampleName {
+  std::string name, path;  ///< of the pose, of its file (poses.h)
+  std::size_t entry = 0;   ///< of Layer::examples,
+  std::string entry_path;  ///< and what stands there
+};
+
 /// A layer that is on, after an update.
 struct LayerResult {
   std::size_t layer = 0;                       ///< its index in Project::layers
@@ -35,7 +42,7 @@ struct LayerResult {
   std::vector<Motion> motions;  ///< of the handles at the frame, as a key there would have them
   std::vector<Vec3> centres;    ///< means of the handles' points at the frame, where the layer starts from
   std::shared_ptr<const std::vector<double>> map_energy;  ///< Deformer::map_energy of the pose
-  std::vector<std::string> examples;                      ///< names, in the order of the report's example_weights
+  std::vector<ExampleName> examples;                      ///< in the order of the report's example_weights
   bool solved = false;       ///< false: an earlier pose is carried along, because a layer below is being dragged
   double build_seconds = 0;  ///< making the deformer: its structure and the weights of the points
   std::shared_ptr<const Markers> markers;  ///< the motion that drives the layer; null where there is none
@@ -101,7 +108,7 @@ class Workspace {
     Layer layer;                        ///< as it was last solved
     std::shared_ptr<const Shape> base;  ///< what the deformer was made for
     std::shared_ptr<Deformer> deformer;
-    std::vector<std::string> examples;  ///< their names
+    std::vector<ExampleName> examples;
     double build_seconds = 0;
     std::optional<Layer> fitted;             ///< the edit that the structure was refined for
     bool grown = false;                      ///< and it was

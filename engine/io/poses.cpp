@@ -89,13 +89,13 @@ bool in_natural_order(const std::string& a, const std::string& b) {
   return a < b;
 }
 
+std::vector<std::string> pose_files(const std::string& path) {
+  return fs::is_directory(path) ? files_in(path) : std::vector{path};
+}
+
 std::vector<NamedPose> read_poses(const std::string& path, const ReadOptions& options) {
   std::vector<NamedPose> out;
-  if (fs::is_directory(path)) {
-    for (const std::string& file : files_in(path)) read_file(file, options, out);
-  } else {
-    read_file(path, options, out);
-  }
+  for (const std::string& file : pose_files(path)) read_file(file, options, out);
   return out;
 }
 

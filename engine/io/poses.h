@@ -21,6 +21,10 @@ struct NamedPose {
 /// each frame. Whether they correspond is for the caller to see. Throws InputError or Cancelled.
 std::vector<NamedPose> read_poses(const std::string& path, const ReadOptions& options = {});
 
+/// The files that `path` names poses by, in their order: of a folder each of a known format, else `path` itself. Throws
+/// InputError where a folder has none.
+std::vector<std::string> pose_files(const std::string& path);
+
 /// Whether `a` comes before `b`: letters by their code, runs of digits by their value.
 bool in_natural_order(const std::string& a, const std::string& b);
 
