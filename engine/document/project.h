@@ -193,7 +193,8 @@ struct Layer {
   std::vector<Selection> rigid;
   std::vector<Stiffness> stiffness;
   std::vector<std::string> examples;  ///< paths, as SelectLabels::path; each one pose or several (poses.h)
-  /// Of the first examples, how much of each there is to be; null, or none given: what suits the handles, without any 0.
+  /// Of the first examples, how much of each there is to be; null, or none given: what suits the handles, without any
+  /// 0.
   std::vector<std::optional<double>> example_weights;
   std::string examples_of;  ///< a file that the examples are poses of, as SelectLabels::path; empty: the shape itself
   std::vector<Key> keys;
