@@ -35,16 +35,11 @@ void show_example(Session& session, std::size_t k, const ExampleView& example) {
   const float side = px(20), gap = px(4);
   const float icons = 2 * (side + gap);
   ImGui::PushID(static_cast<int>(k));
-  widget::label(example.name, example.path);
+  widget::label(example.name, fmt::format("{}\nDrag the bar; Ctrl and a click on it types any number.", example.path));
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - icons);
   ImGui::BeginDisabled(!example.weight);
   double weight = example.weight.value_or(0);
   const widget::BarUse use = widget::bar("##weight", weight, least, most, example.pinned.has_value());
-  if (ImGui::IsItemHovered() && !ImGui::IsItemActive())
-    widget::tooltip(
-        fmt::format("{}: how much of this pose there is. Drag the bar, or type any number after a click with "
-                    "Ctrl.",
-                    example.name));
   if (use.begun) session.begin_weight(k);
   if (use.changed) session.weight_to(weight);
   if (use.cancelled) session.cancel_drag();

@@ -262,8 +262,10 @@ void FileDialog::show_foot() {
   const float cancel_width = std::round(ImGui::CalcTextSize("Cancel").x) + px(32);
   if (!request_.folder_action.empty()) {
     if (widget::button(request_.folder_action.c_str(), false)) {
+      const auto row = static_cast<std::size_t>(chosen_);
+      const bool inside = chosen_ >= 0 && row < entries_.size() && entries_[row].folder;
       close_ = true;
-      request_.done(folder_);
+      request_.done(inside ? (fs::path(folder_) / entries_[row].name).string() : folder_);
     }
     if (ImGui::IsItemHovered()) widget::tooltip(request_.folder_help);
     ImGui::SameLine();

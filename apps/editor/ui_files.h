@@ -17,7 +17,7 @@ struct FileRequest {
   std::vector<std::string> extensions;     ///< lower case, without dot; files of others are not listed. Empty: all
   std::string start;                       ///< a folder, or a file whose folder and name are the first
   std::string note;                        ///< a sentence above the buttons; or empty
-  std::string folder_action, folder_help;  ///< of a button that chooses the folder shown; empty: none
+  std::string folder_action, folder_help;  ///< of a button that takes the chosen folder, or the one shown; empty: none
   std::function<void(const std::string& path)> done;
 };
 

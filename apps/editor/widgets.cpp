@@ -225,8 +225,10 @@ BarUse bar(const char* id, double& value, double min, double max, bool lit) {
     const float zero = place(0), end = place(value), edge = px(1);
     list->AddRectFilled({std::min(zero, end), from.y + edge}, {std::max(zero, end), to.y - edge},
                         packed(lit ? theme().accent : theme().quiet, lit ? 0.55f : 0.35f));
-    for (const double mark : {0.0, 1.0})
-      list->AddRectFilled({place(mark), from.y + edge}, {place(mark) + edge, to.y - edge}, packed(theme().faint, 0.6f));
+    for (const double mark : {0.0, 1.0}) {
+      const float x = place(mark);
+      list->AddRectFilled({x, to.y - px(4)}, {x + edge, to.y - edge}, packed(theme().quiet));
+    }
     char text[32];
     ImFormatString(text, sizeof text, "%.2f", std::abs(value) < 0.005 ? 0 : value);
     right_inside(text, theme().text);
