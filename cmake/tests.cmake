@@ -43,6 +43,10 @@ if(SINEW_EDITOR)
     add_test(NAME editor_${what} COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_test.sh $<TARGET_FILE_DIR:sinew-editor> ${what})
     set_tests_properties(editor_${what} PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)
   endforeach()
+  foreach(what poses horse)
+    add_test(NAME editor_${what} COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_poses_test.sh $<TARGET_FILE_DIR:sinew-editor> ${what})
+    set_tests_properties(editor_${what} PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)
+  endforeach()
 endif()
 
 # Programs of others that read what sinew writes. Only `ctest -C clients` knows these tests: they need large packages, or

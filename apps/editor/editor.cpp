@@ -137,8 +137,10 @@ void Editor::take_events() {
     }
     interface_frame(size);
     for (const InputEvent& event : batch) deliver(event);
+    const std::uint64_t before = session_.asked();
     show_ui(ui_);
     ImGui::EndFrame();
+    if (session_.dragging() && session_.asked() != before) asked_.emplace_back(session_.asked(), batch.back().time);
     frames_wanted_ = 2;
   }
 }

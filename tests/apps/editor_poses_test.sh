@@ -5,8 +5,8 @@
 #   poses  opens a cylinder, then the folder of its poses; drags a bar, pins, frees, undoes; holds one end, pulls the other
 #          and sees the bars follow; saves, exports; the command line must come to the same points; a file that is no
 #          pose is a sentence; then the folder and the cylinder from the command line, at scale 2
-#   horse  ten poses of a horse, three places held or pulled, where there are some (SINEW_SHARED, or ../shared beside
-#          the sources)
+#   horse  opens a folder of poses of a horse alone, blends by a bar, lifts a hoof, where there are some (SINEW_SHARED, or
+#          ../shared beside the sources); prints how long the pictures of both took after their mouse events
 # SHOTS=FOLDER keeps screenshots. Exit status 77: skipped, with the reason.
 source "$(dirname "$0")/window.sh"
 
@@ -99,13 +99,13 @@ poses() {
 
 # One end held, the other pulled: the bars follow.
 handles() {
-  drag 494 74 514 90 # the middle of the upper end
+  drag 470 97 540 112 # the front of the upper end
   press h
   sleep 1
   drag 430 570 580 640
   press k
   sleep 2
-  follow 504 80 70
+  follow 504 106 70
   sleep 2
   press alt+a
   shot pulled
@@ -147,12 +147,60 @@ from_the_command_line() {
   start_editor "$work/rest.obj" "$work/poses"
   until_done 60 title '^rest.obj \* - Sinew$'
   sleep 2
+  point 960 500
+  xdotool click --repeat 3 --delay 60 5
+  point 400 300
+  sleep 1
   shot large
   press ctrl+s
   name "$work/large.json"
   until_done 30 test -s "$work/large.json"
   [ "$(grep -c '\.obj"' "$work/large.json")" -ge 1 ] || fail "the edit names no poses"
   leave
+}
+
+# Ten poses of a horse: a hoof is lifted, two held.
+horse() {
+  local data=${SINEW_SHARED:-$(dirname "$0")/../../../shared}/data/poses/sumner_horse
+  [ -e "$data/1.obj" ] || { echo "skipped: no $data/1.obj"; exit 77; }
+  mkdir -p "$work/horse"
+  cp "$data"/[0-9]*.obj "$work/horse"
+  start_editor --times "$work/times" "$work/horse"
+  until_done 60 title '^1.obj \* - Sinew$'
+  sleep 8
+  press Return
+  shot added
+  drag 1147 360 1190 360 # the bar of the third pose, to about 1
+  sleep 2
+  shot blended
+  latency "$work/times" "the bar, 8,431 points"
+  cp "$work/times" "$work/times of the bar"
+  press ctrl+z
+  sleep 2
+  drag 318 555 352 585 # a fore hoof
+  press h
+  drag 612 428 645 452 # the hind hooves
+  press k
+  drag 455 452 480 482
+  press k
+  sleep 3
+  press alt+a
+  follow 335 568 40
+  sleep 4
+  shot pulled
+  click 1132 656 # Structure
+  sleep 1
+  shot structure
+  press ctrl+s
+  name "$work/hoof.json"
+  until_done 30 test -s "$work/hoof.json"
+  press ctrl+e
+  name "$work/window.obj"
+  until_done 30 test -s "$work/window.obj"
+  leave
+  tail -n +$(($(wc -l <"$work/times of the bar") + 1)) "$work/times" >"$work/times of the hoof"
+  latency "$work/times of the hoof" "the hoof, 8,431 points"
+  same_points "$work/horse/1.obj" "$work/hoof.json"
 }
 
 start_screen
