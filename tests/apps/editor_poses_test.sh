@@ -5,7 +5,7 @@
 #   poses  opens a cylinder, then the folder of its poses; drags a bar, pins, frees, undoes; holds one end, pulls the other
 #          and sees the bars follow; saves, exports; the command line must come to the same points; a file that is no
 #          pose is a sentence; then the folder and the cylinder from the command line, at scale 2
-#   horse  opens a folder of poses of a horse alone, blends by a bar, lifts a hoof, where there are some (SINEW_SHARED, or
+#   horse  opens a folder of poses of a horse alone, blends by a bar, pulls a hoof, where there are some (SINEW_SHARED, or
 #          ../shared beside the sources); prints how long the pictures of both took after their mouse events
 # SHOTS=FOLDER keeps screenshots. Exit status 77: skipped, with the reason.
 source "$(dirname "$0")/window.sh"
@@ -94,7 +94,23 @@ poses() {
   handles
   no_pose
   leave
+  dropped
   from_the_command_line
+}
+
+# Two files at once, then their folder, which adds the third; Ctrl+S, Enter.
+dropped() {
+  printf '1 drop %s\t%s\n3 drop %s\n5 key 83 1 2\n5.1 key 83 0 2\n6 key 257 1 0\n6.1 key 257 0 0\n8 move 300 300\n' \
+    "$work/poses/twisted.obj" "$work/poses/bent to the right.obj" "$work/poses" >"$work/drops"
+  start_editor --play "$work/drops" "$work/rest.obj"
+  until_done 60 test -s "$work/rest.edit.json"
+  shot dropped
+  local status=0
+  wait "$editor_pid" || status=$?
+  editor_pid=
+  [ "$status" -eq 0 ] || fail "the drops ended with status $status"
+  [ "$(grep -o 'poses/[^"]*' "$work/rest.edit.json" | cut -d/ -f2 | cut -c1-11 | paste -sd,)" = "bent to the,twisted.obj,bent to the" ] ||
+    fail "dropped, these are the examples: $(grep -o 'poses/[^"]*' "$work/rest.edit.json")"
 }
 
 # One end held, the other pulled: the bars follow.
@@ -159,7 +175,7 @@ from_the_command_line() {
   leave
 }
 
-# Ten poses of a horse: a hoof is lifted, two held.
+# Five poses of a horse: a fore hoof is pulled, the hind ones held.
 horse() {
   local data=${SINEW_SHARED:-$(dirname "$0")/../../../shared}/data/poses/sumner_horse
   [ -e "$data/1.obj" ] || { echo "skipped: no $data/1.obj"; exit 77; }

@@ -102,8 +102,11 @@ latency() {
   [ -s "$1" ] || fail "no picture of the drag was timed"
   sort -n "$1" | awk -v name="$2" '
     { t[NR] = $1 * 1000; points += $2 }
-    END { printf "%s: %d pictures of the drag, event to picture p50 %.1f ms, p95 %.1f ms, %d points each\n", name, NR,
-          t[int((NR + 1) / 2)], t[int(NR * 0.95 + 0.5)], points / NR }'
+    END {
+      printf "%s: %d pictures of the drag, event to picture p50 %.1f ms, p95 %.1f ms", name, NR, t[int((NR + 1) / 2)],
+             t[int(NR * 0.95 + 0.5)]
+      print (points > 0 ? sprintf(", %d points each", points / NR) : "")
+    }'
 }
 
 # largest distance of points, in units of the diagonal
