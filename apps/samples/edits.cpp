@@ -178,6 +178,36 @@ constexpr const char* jet = R"({ "sinew": 1,
   } ] }
 )";
 
+/// Froehlich and Botsch, Figure 7: its hooves stay, its muzzle goes to the side and a little down, and all else takes
+/// the pose between the examples that suits these best.
+constexpr const char* foal = R"({ "sinew": 1,
+  "layers": [ {
+    "name": "Look round",
+    "method": "shell",
+    "settings": { "vertices": 1000 },
+    "examples": [ "poses" ],
+    "fixed": [ { "box": [[-1, -0.1, -1], [1, 0.03, 1]] } ],
+    "handles": [ { "points": { "sphere": { "center": [0.96, 1.1, 0], "radius": 0.05 } }, "move": [-0.25, -0.1, -0.4] } ]
+  } ] }
+)";
+
+/// Halfway between the straight tube and its three turns.
+constexpr const char* helix = R"({ "sinew": 1,
+  "layers": [ {
+    "method": "shell",
+    "settings": { "vertices": 0 },
+    "examples": [ "helix.wound.obj" ],
+    "example_weights": [ 0.5 ]
+  } ] }
+)";
+
+/// The same edit of the graph by a shell.
+std::string as_shell(const std::string& edit) {
+  const std::size_t from = edit.find("\"method\""), to = edit.find("\"fixed\"");
+  return edit.substr(0, from) + "\"method\": \"shell\",\n    \"settings\": { \"vertices\": 0 },\n    " +
+         edit.substr(to);
+}
+
 }  // namespace
 
 std::string edit_of(const std::string& sample) {
@@ -188,10 +218,13 @@ std::string edit_of(const std::string& sample) {
   return found == edits.end() ? "" : found->second;
 }
 
-std::vector<std::pair<std::string, std::string>> tet_edits_of(const std::string& sample) {
-  if (sample == "bar") return {{"tet", bar_tet}, {"rigid", bar_rigid}};
-  if (sample == "cactus") return {{"tet", cactus_tet}};
-  if (sample == "cylinder") return {{"tet", cylinder_tet}};
+std::vector<std::pair<std::string, std::string>> more_edits_of(const std::string& sample) {
+  if (sample == "plane") return {{"shell", as_shell(plane)}};
+  if (sample == "bar") return {{"tet", bar_tet}, {"rigid", bar_rigid}, {"shell", as_shell(bar)}};
+  if (sample == "cactus") return {{"tet", cactus_tet}, {"shell", as_shell(cactus)}};
+  if (sample == "cylinder") return {{"tet", cylinder_tet}, {"shell", as_shell(cylinder)}};
+  if (sample == "foal") return {{"shell", foal}};
+  if (sample == "helix") return {{"shell", helix}};
   return {};
 }
 

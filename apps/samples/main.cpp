@@ -10,6 +10,7 @@
 #include "apps/samples/dense.h"
 #include "apps/samples/edits.h"
 #include "apps/samples/meshes.h"
+#include "apps/samples/poses.h"
 #include "apps/samples/scanner.h"
 #include "apps/samples/soup.h"
 #include "apps/samples/splats.h"
@@ -72,6 +73,19 @@ std::string save_soup(const std::string& stem, const Options&) {
   return stem + ".obj";
 }
 
+/// The poses lie in a folder of their own: what an edit names as examples.
+std::string save_foal(const std::string& stem, const Options&) {
+  const std::filesystem::path folder = std::filesystem::path(stem).replace_filename("poses");
+  std::filesystem::create_directories(folder);
+  for (const NamedShape& pose : foal_poses()) save_still((folder / (pose.name + ".obj")).string(), pose.shape);
+  return save_still(stem + ".obj", foal());
+}
+
+std::string save_helix(const std::string& stem, const Options&) {
+  save_still(stem + ".wound.obj", helix(3));
+  return save_still(stem + ".obj", tube());
+}
+
 constexpr int jet_frames = 72, splash_frames = 6;
 
 constexpr Sample samples[] = {
@@ -93,6 +107,8 @@ constexpr Sample samples[] = {
     {"soup", save_soup, "a chair of loose polygons, bowing"},
     {"walk", [](const std::string& stem, const Options&) { return save_frames(stem, "obj", walk_cycle, make_walk); },
      "a foal that walks, 24 frames"},
+    {"foal", save_foal, "the foal at rest, and ten poses of it in the folder poses"},
+    {"helix", save_helix, "a straight tube, and the same wound up by three turns"},
     {"jet", [](const std::string& stem, const Options&) { return save_frames(stem, "ply", jet_frames, make_jet); },
      "a jet of about 1,000 particles, 72 frames"},
     {"splash",
@@ -105,7 +121,7 @@ void make(const Sample& sample, const Options& options) {
   const std::string stem = (std::filesystem::path(options.folder) / sample.name).string();
   const std::string made = sample.make(stem, options);
   if (const std::string edit = edit_of(sample.name); !edit.empty()) save_text(stem + ".edit.json", edit);
-  for (const auto& [name, edit] : tet_edits_of(sample.name)) save_text(stem + "." + name + ".edit.json", edit);
+  for (const auto& [name, edit] : more_edits_of(sample.name)) save_text(stem + "." + name + ".edit.json", edit);
   std::cerr << made << '\n';
 }
 

@@ -117,9 +117,10 @@ TEST(Samples, EditsTakeHoldOfTheirShapes) {
   std::vector<std::tuple<std::string, std::string, std::string>> edits;  // sample, method, text
   for (const auto& [name, shape] : shapes) {
     edits.emplace_back(name, name == "slab" ? "tet" : "graph", edit_of(name));
-    for (const auto& [more, text] : tet_edits_of(name)) edits.emplace_back(name, "tet", text);
+    for (const auto& [more, text] : more_edits_of(name))
+      edits.emplace_back(name, more == "shell" ? "shell" : "tet", text);
   }
-  EXPECT_EQ(edits.size(), shapes.size() + 4);
+  EXPECT_EQ(edits.size(), shapes.size() + 8);
   for (const auto& [name, method, text] : edits) {
     SCOPED_TRACE(name + " " + method);
     const Shape& shape = shapes.at(name);
