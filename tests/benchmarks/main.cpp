@@ -1,6 +1,6 @@
-// sinew-bench [--json FILE]: times the graph, with Google Benchmark, and the tetrahedral editor on the cases of the
-// papers' tables and prints the papers' figures beside today's. Absolute times are of this machine and this hour;
-// ratios to REF carry over.
+// sinew-bench [--only graph|solids|shells] [--json FILE]: times the graph, with Google Benchmark, the tetrahedral
+// editor and the shells on the cases of the papers' tables and prints the papers' figures beside today's. Absolute
+// times are of this machine and this hour; ratios to REF carry over.
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
@@ -18,6 +18,7 @@
 #include "engine/geometry/topology.h"
 #include "tests/benchmarks/cases.h"
 #include "tests/benchmarks/frames.h"
+#include "tests/benchmarks/shells.h"
 #include "tests/benchmarks/solid_times.h"
 
 namespace sinew::benchmarks {
@@ -308,9 +309,10 @@ void print_tables(std::map<std::string, Medians::Figure>& figures) {
   }
 }
 
-/// Table 3.1 of Stoll et al. 2007 and the cold solves of solids.
-void add_solids(std::map<std::string, Medians::Figure>& figures) {
-  for (const auto& [name, values] : print_solids())
+/// The figures of tables printed elsewhere: by row and name, times in milliseconds.
+void add_tables(std::map<std::string, Medians::Figure>& figures,
+                const std::map<std::string, std::map<std::string, double>>& tables) {
+  for (const auto& [name, values] : tables)
     for (const auto& [what, value] : values) {
       Medians::Figure& figure = figures[name];
       if (what == (values.contains("solve") ? "solve" : "plain_frame"))
@@ -337,19 +339,26 @@ void write_json(const std::string& path, const std::map<std::string, Medians::Fi
 
 int main(int argc, char** argv) {
   using namespace sinew::benchmarks;
-  std::string json;
-  if (argc == 3 && std::strcmp(argv[1], "--json") == 0) {
-    json = argv[2];
-  } else if (argc != 1) {
-    fmt::print(stderr, "usage: sinew-bench [--json FILE]\n");
-    return 2;
+  std::string json, only;
+  for (int i = 1; i < argc; i += 2) {
+    std::string* const value = std::strcmp(argv[i], "--json") == 0   ? &json
+                               : std::strcmp(argv[i], "--only") == 0 ? &only
+                                                                     : nullptr;
+    if (value == nullptr || i + 1 == argc) {
+      fmt::print(stderr, "usage: sinew-bench [--only graph|solids|shells] [--json FILE]\n");
+      return 2;
+    }
+    *value = argv[i + 1];
   }
-  register_all();
   Medians medians;
-  benchmark::RunSpecifiedBenchmarks(&medians);
-  print_tables(medians.figures);
-  print_frames(medians.figures["REF"].median(), medians.figures);
-  add_solids(medians.figures);
+  if (only.empty() || only == "graph") {
+    register_all();
+    benchmark::RunSpecifiedBenchmarks(&medians);
+    print_tables(medians.figures);
+    print_frames(medians.figures["REF"].median(), medians.figures);
+  }
+  if (only.empty() || only == "solids") add_tables(medians.figures, print_solids());
+  if (only.empty() || only == "shells") add_tables(medians.figures, print_shells());
   if (!json.empty()) write_json(json, medians.figures);
   return 0;
 }

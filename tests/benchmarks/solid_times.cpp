@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
-#include <functional>
 
 #include "apps/samples/meshes.h"
 #include "deformers/tet.h"
@@ -15,38 +13,13 @@
 #include "engine/geometry/parallel.h"
 #include "engine/geometry/skin.h"
 #include "engine/geometry/topology.h"
+#include "tests/benchmarks/timing.h"
 
 namespace sinew::benchmarks {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr double drag_share = 0.01;  ///< of the diagonal, one mouse move
-
-double seconds_of(const std::function<void()>& body) {
-  const Clock::time_point begin = Clock::now();
-  body();
-  return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values.empty() ? 0 : values[values.size() / 2];
-}
-
-/// Median of so many runs, each of as many calls as take 10 ms, per call.
-double median_of(int runs, const std::function<void()>& body) {
-  const double once = std::max(seconds_of(body), 1e-7);
-  const int calls = std::clamp(static_cast<int>(0.01 / once), 1, 1000);
-  std::vector<double> times;
-  for (int r = 0; r < runs; ++r)
-    times.push_back(seconds_of([&] {
-                      for (int c = 0; c < calls; ++c) body();
-                    }) /
-                    calls);
-  return median(std::move(times));
-}
 
 TetMesh mesh_of(const Shape& shape, const TetMeshOptions& options) {
   std::vector<std::string> notes;
