@@ -25,8 +25,11 @@ sinew_tests(test_editor_core tests/apps/editor_core*_test.cpp sinew_editor_core 
 add_dependencies(test_editor_core sinew-tets)
 sinew_tests(test_sinew tests/apps/sinew_*test.cpp sinew_document sinew_deformers sinew_gpu sinew_samples)
 add_dependencies(test_sinew sinew sinew-tets)
+# What pictures show beside ours.
+add_executable(sinew-mesh-ik tests/mesh_ik/main.cpp tests/benchmarks/mesh_ik.cpp)
+target_link_libraries(sinew-mesh-ik PRIVATE sinew_document sinew_deformers)
 sinew_tests(test_pictures tests/apps/pictures_test.cpp sinew_gpu)
-add_dependencies(test_pictures sinew sinew-samples sinew-tets)
+add_dependencies(test_pictures sinew sinew-samples sinew-tets sinew-mesh-ik)
 sinew_tests(test_house tests/house/*.cpp sinew_common)
 
 # One run of all gpu tests: each start of the program proves anew that the validation layer catches a planted hazard.

@@ -178,18 +178,41 @@ constexpr const char* jet = R"({ "sinew": 1,
   } ] }
 )";
 
-/// Froehlich and Botsch, Figure 7: its hooves stay, its muzzle goes to the side and a little down, and all else takes
-/// the pose between the examples that suits these best.
-constexpr const char* foal = R"({ "sinew": 1,
+/// The foal by its poses: the hooves stay, one point of the muzzle goes where `move` says, and all else takes the pose
+/// between the examples that suits these best.
+std::string posed_foal(const std::string& examples, const std::string& move) {
+  return R"({ "sinew": 1,
   "layers": [ {
-    "name": "Look round",
     "method": "shell",
     "settings": { "vertices": 1000 },
-    "examples": [ "poses" ],
+    "examples": [ )" +
+         examples + R"( ],
     "fixed": [ { "box": [[-1, -0.1, -1], [1, 0.03, 1]] } ],
-    "handles": [ { "points": { "sphere": { "center": [0.96, 1.1, 0], "radius": 0.05 } }, "move": [-0.25, -0.1, -0.4] } ]
+    "handles": [ { "points": { "sphere": { "center": [0.9919, 1.0967, 0.0115], "radius": 0.012 } }, "move": )" +
+         move + R"( } ]
   } ] }
 )";
+}
+
+/// Froehlich and Botsch, Figure 5: so much of the way from rest to a pose, or beyond it.
+std::string blended_foal(const std::string& weight) {
+  return R"({ "sinew": 1,
+  "layers": [ { "method": "shell", "settings": { "vertices": 1000 },
+                "examples": [ "poses/rear.obj" ], "example_weights": [ )" +
+         weight + R"( ] } ] }
+)";
+}
+
+/// Figure 7: the example stands turned about; Figure 8: what is asked for is far from the examples.
+std::vector<std::pair<std::string, std::string>> foal_edits() {
+  return {{"shell", posed_foal(R"("poses")", "[-0.3, -0.1, -0.5]")},
+          {"turned", posed_foal(R"("foal.turned.obj")", "[-0.3, -0.75, 0]")},
+          {"far", posed_foal(R"("poses/stride-left.obj", "poses/head-down.obj")", "[-0.3, 0.1, -0.6]")},
+          {"blend35", blended_foal("0.35")},
+          {"blend65", blended_foal("0.65")},
+          {"blend100", blended_foal("1")},
+          {"blend125", blended_foal("1.25")}};
+}
 
 /// Halfway between the straight tube and its three turns.
 constexpr const char* helix = R"({ "sinew": 1,
@@ -201,12 +224,14 @@ constexpr const char* helix = R"({ "sinew": 1,
   } ] }
 )";
 
-/// The same edit of the graph by a shell.
-std::string as_shell(const std::string& edit) {
+/// The graph's edit by a shell. A solid one is thick enough to resist bending, and keeps its volume.
+std::string as_shell(const std::string& edit, const char* settings) {
   const std::size_t from = edit.find("\"method\""), to = edit.find("\"fixed\"");
-  return edit.substr(0, from) + "\"method\": \"shell\",\n    \"settings\": { \"vertices\": 0 },\n    " +
+  return edit.substr(0, from) + "\"method\": \"shell\",\n    \"settings\": { " + settings + " },\n    " +
          edit.substr(to);
 }
+constexpr const char* of_sheet = R"("vertices": 1000)";
+constexpr const char* of_solid = R"("vertices": 0, "bend": 100, "volume": 100000)";
 
 }  // namespace
 
@@ -219,11 +244,11 @@ std::string edit_of(const std::string& sample) {
 }
 
 std::vector<std::pair<std::string, std::string>> more_edits_of(const std::string& sample) {
-  if (sample == "plane") return {{"shell", as_shell(plane)}};
-  if (sample == "bar") return {{"tet", bar_tet}, {"rigid", bar_rigid}, {"shell", as_shell(bar)}};
-  if (sample == "cactus") return {{"tet", cactus_tet}, {"shell", as_shell(cactus)}};
-  if (sample == "cylinder") return {{"tet", cylinder_tet}, {"shell", as_shell(cylinder)}};
-  if (sample == "foal") return {{"shell", foal}};
+  if (sample == "plane") return {{"shell", as_shell(plane, of_sheet)}};
+  if (sample == "bar") return {{"tet", bar_tet}, {"rigid", bar_rigid}, {"shell", as_shell(bar, of_solid)}};
+  if (sample == "cactus") return {{"tet", cactus_tet}, {"shell", as_shell(cactus, of_solid)}};
+  if (sample == "cylinder") return {{"tet", cylinder_tet}, {"shell", as_shell(cylinder, of_solid)}};
+  if (sample == "foal") return foal_edits();
   if (sample == "helix") return {{"shell", helix}};
   return {};
 }

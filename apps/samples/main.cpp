@@ -73,11 +73,12 @@ std::string save_soup(const std::string& stem, const Options&) {
   return stem + ".obj";
 }
 
-/// The poses lie in a folder of their own: what an edit names as examples.
+/// The poses lie in a folder of their own: what an edit names as examples. One stands turned about beside the foal.
 std::string save_foal(const std::string& stem, const Options&) {
   const std::filesystem::path folder = std::filesystem::path(stem).replace_filename("poses");
   std::filesystem::create_directories(folder);
   for (const NamedShape& pose : foal_poses()) save_still((folder / (pose.name + ".obj")).string(), pose.shape);
+  save_still(stem + ".turned.obj", foal_turned());
   return save_still(stem + ".obj", foal());
 }
 

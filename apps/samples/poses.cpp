@@ -1,6 +1,7 @@
 #include "apps/samples/poses.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -165,6 +166,13 @@ Faces tube_faces() {
 
 constexpr double tube_length = 2, tube_radius = 0.035;
 
+/// To 1e-7, as floats.
+Vec3 rounded(const Vec3& p) {
+  return (Vec3(std::round(p.x() * 1e7), std::round(p.y() * 1e7), std::round(p.z() * 1e7)) / 1e7)
+      .cast<float>()
+      .cast<double>();
+}
+
 /// A tube around a curve: where it is after a share of its length, and what is across it there.
 struct Across {
   Vec3 middle, u, v;
@@ -172,11 +180,7 @@ struct Across {
 template <class Curve>
 Shape tube_around(const Curve& curve) {
   Shape shape;
-  const auto add = [&](const Vec3& p) {
-    shape.positions.push_back((Vec3(std::round(p.x() * 1e7), std::round(p.y() * 1e7), std::round(p.z() * 1e7)) / 1e7)
-                                  .cast<float>()
-                                  .cast<double>());
-  };
+  const auto add = [&](const Vec3& p) { shape.positions.push_back(rounded(p)); };
   const std::vector<double> places = ring_places();
   add(curve(0.0).middle);
   for (const double place : places) {
@@ -207,6 +211,14 @@ std::vector<NamedShape> foal_poses(double cell) {
     out.push_back({pose.name, std::move(shape)});
   }
   return out;
+}
+
+Shape foal_turned() {
+  std::vector<NamedShape> all = foal_poses();
+  const auto down = std::ranges::find(all, "head-down", &NamedShape::name);
+  const Mat3 turn = turn_y(140);
+  for (Vec3& p : down->shape.positions) p = rounded(turn * p);
+  return std::move(down->shape);
 }
 
 Shape tube() {

@@ -19,6 +19,9 @@ std::vector<NamedShape> foal_poses();
 /// With cells of another size.
 std::vector<NamedShape> foal_poses(double cell);
 
+/// The foal with its head down, turned by 140 degrees about y.
+Shape foal_turned();
+
 /// A straight tube along y, of radius 0.035 and length 2, its rings wide apart here and close together there: 612
 /// vertices, as the helix of Froehlich and Botsch, Figure 6, has.
 Shape tube();

@@ -97,6 +97,15 @@ std::string sample_of(const std::string& argument) {
 
 class Pictures : public ::testing::TestWithParam<Row> {
  protected:
+  /// FOLDER/SHAPE.EDIT.mesh-ik.obj: the edit FOLDER/SHAPE.EDIT.edit.json done by the original mesh-based inverse
+  /// kinematics.
+  static void make_by_mesh_ik(const std::string& path) {
+    const std::string stem = path.substr(0, path.size() - std::string(".mesh-ik.obj").size());
+    const std::string shape = stem.substr(0, stem.rfind('.')) + ".obj";
+    const Outcome outcome = Program({shape, stem + ".edit.json", path}, "sinew-mesh-ik").wait();
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+  }
+
   /// Makes the row's samples and draws it, on the software driver: graphics cards smooth edges in ways of their own.
   gpu::Picture draw(const Row& row) const {
     setenv("SINEW_VULKAN_DEVICE", "llvmpipe", 1);
@@ -108,6 +117,7 @@ class Pictures : public ::testing::TestWithParam<Row> {
         EXPECT_EQ(outcome.status, 0) << outcome.err;
       }
       replace_all(argument, "SAMPLES", samples_.path().string());
+      if (argument.ends_with(".mesh-ik.obj")) make_by_mesh_ik(argument);
       arguments.push_back(argument);
     }
     const std::string path = samples_ / "picture.png";

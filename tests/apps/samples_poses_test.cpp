@@ -98,22 +98,36 @@ TEST(Poses, AreWhatTheirNamesSay) {
 
 TEST(Poses, TheMuzzleOfTheFoalIsTakenHoldOf) {
   const auto rest = std::make_shared<const Shape>(foal());
-  const auto edits = more_edits_of("foal");
-  ASSERT_EQ(edits.size(), 1u);
-  const document::Project edit = document::parse_edit("foal.shell.edit.json", edits[0].second);
-  const document::Layer& layer = edit.layers.at(0);
-  EXPECT_EQ(layer.method, "shell");
-  EXPECT_EQ(layer.examples, std::vector<std::string>{"poses"});
-  document::Selector selector(rest);
-  const Constraints constraints = selector.constraints(layer, rest->positions);
-  ASSERT_EQ(constraints.handles.size(), 1u);
-  EXPECT_GT(constraints.handles[0].points.size(), 10u);
-  std::array<int, 4> of_hoof{};
-  for (const Index i : constraints.fixed) {
-    const Vec3& p = rest->positions[i];
-    ++of_hoof[(p.x() > 0 ? 2u : 0u) + (p.z() > 0 ? 1u : 0u)];
+  for (const auto& [name, text] : more_edits_of("foal")) {
+    SCOPED_TRACE(name);
+    const document::Project edit = document::parse_edit("foal." + name + ".edit.json", text);
+    const document::Layer& layer = edit.layers.at(0);
+    EXPECT_EQ(layer.method, "shell");
+    EXPECT_FALSE(layer.examples.empty());
+    if (name.starts_with("blend")) {
+      EXPECT_TRUE(layer.handles.empty());
+      continue;
+    }
+    document::Selector selector(rest);
+    const Constraints constraints = selector.constraints(layer, rest->positions);
+    ASSERT_EQ(constraints.handles.size(), 1u);
+    EXPECT_EQ(constraints.handles[0].points.size(), 1u);
+    EXPECT_EQ(constraints.handles[0].points[0], muzzle_of(*rest));
+    std::array<int, 4> of_hoof{};
+    for (const Index i : constraints.fixed) {
+      const Vec3& p = rest->positions[i];
+      ++of_hoof[(p.x() > 0 ? 2u : 0u) + (p.z() > 0 ? 1u : 0u)];
+    }
+    for (const int count : of_hoof) EXPECT_GT(count, 10);
   }
-  for (const int count : of_hoof) EXPECT_GT(count, 10);
+}
+
+TEST(Poses, OneStandsTurnedAbout) {
+  const Shape turned = foal_turned(), down = poses_by_name().at("head-down");
+  EXPECT_EQ(difference_of_faces(down, turned), "");
+  const Eigen::AngleAxisd turn(140 * std::numbers::pi / 180, Vec3::UnitY());
+  for (std::size_t i = 0; i < down.size(); ++i)
+    ASSERT_LT((turned.positions[i] - turn * down.positions[i]).norm(), 1e-6);
 }
 
 TEST(Helix, IsWoundFromATubeWithoutStretchingItsMiddle) {
