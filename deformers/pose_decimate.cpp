@@ -7,6 +7,7 @@
 #include <queue>
 #include <tuple>
 
+#include "deformers/shell_energy.h"
 #include "engine/geometry/check.h"
 
 namespace sinew {
@@ -96,6 +97,7 @@ class Decimation {
 
   const Vec3& at(std::size_t pose, Index v) const { return points_[pose][v]; }
   void add_quadrics();
+  double bending(Index t) const;
   void find_neighbours(Index v, std::vector<Index>& out) const;
   int triangles_at_edge(Index v, Index w) const;
   bool is_fan(Index v) const;
@@ -165,24 +167,46 @@ Decimation::Decimation(std::span<const std::vector<Vec3>> poses, const std::vect
   add_quadrics();
 }
 
+/// The largest change of the angle at one of the triangle's edges, in any pose, by the edge's length.
+double Decimation::bending(Index t) const {
+  double most = 0;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Index v = triangles_[t][c], w = triangles_[t][(c + 1) % 3];
+    const auto beyond =
+        std::find_if(star_[v].begin(), star_[v].end(), [&](Index u) { return u != t && has(triangles_[u], w); });
+    const double length = (at(0, w) - at(0, v)).norm();
+    if (beyond == star_[v].end() || triangles_at_edge(v, w) != 2 || !(length > 0)) continue;
+    const Triangle& other = triangles_[*beyond];
+    const Index x = triangles_[t][(c + 2) % 3], y = other[0] + other[1] + other[2] - v - w;
+    const auto angle = [&](std::size_t k) { return dihedral_angle(at(k, v), at(k, w), at(k, x), at(k, y)); };
+    const double rest = points_.size() > 1 ? angle(0) : 0;
+    for (std::size_t k = 1; k < points_.size(); ++k) most = std::max(most, std::abs(angle(k) - rest) / length);
+  }
+  return most;
+}
+
 void Decimation::add_quadrics() {
   const std::size_t poses = points_.size();
   quadrics_.resize(star_.size() * poses);
-  for (const Triangle& t : triangles_)
+  for (Index number = 0; number < triangles_.size(); ++number) {
+    const Triangle& t = triangles_[number];
+    const double bends = 1 + bending(number);
     for (std::size_t k = 0; k < poses; ++k) {
       const Vec3 n = (at(k, t[1]) - at(k, t[0])).cross(at(k, t[2]) - at(k, t[0]));
       const double area = n.norm() / 2;
+      const double weight = area * bends;
       const Vec3 normal = area > 0 ? Vec3(n / (2 * area)) : Vec3::Zero();
       for (int c = 0; c < 3; ++c) {
         const Index v = t[c], w = t[(c + 1) % 3];
-        quadrics_[v * poses + k].add_plane(normal, -normal.dot(at(k, v)), area);
-        quadrics_[v * poses + k].add_point(at(k, v), point_weight * area);
+        quadrics_[v * poses + k].add_plane(normal, -normal.dot(at(k, v)), weight);
+        quadrics_[v * poses + k].add_point(at(k, v), point_weight * weight);
         if (!boundary_[v] || !boundary_[w] || triangles_at_edge(v, w) != 1) continue;
         const Vec3 edge = at(k, w) - at(k, v), across = normal.cross(edge).normalized();
         for (const Index end : {v, w})
           quadrics_[end * poses + k].add_plane(across, -across.dot(at(k, v)), boundary_weight * edge.squaredNorm());
       }
     }
+  }
 }
 
 void Decimation::find_neighbours(Index v, std::vector<Index>& out) const {
