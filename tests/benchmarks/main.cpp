@@ -1,4 +1,4 @@
-// sinew-bench [--only graph|solids|shells] [--json FILE]: times the graph, with Google Benchmark, the tetrahedral
+// sinew-bench [--only graph|solids|shells|poses] [--json FILE]: times the graph, with Google Benchmark, the tetrahedral
 // editor and the shells on the cases of the papers' tables and prints the papers' figures beside today's. Absolute
 // times are of this machine and this hour; ratios to REF carry over.
 
@@ -345,7 +345,7 @@ int main(int argc, char** argv) {
                                : std::strcmp(argv[i], "--only") == 0 ? &only
                                                                      : nullptr;
     if (value == nullptr || i + 1 == argc) {
-      fmt::print(stderr, "usage: sinew-bench [--only graph|solids|shells] [--json FILE]\n");
+      fmt::print(stderr, "usage: sinew-bench [--only graph|solids|shells|poses] [--json FILE]\n");
       return 2;
     }
     *value = argv[i + 1];
@@ -359,6 +359,7 @@ int main(int argc, char** argv) {
   }
   if (only.empty() || only == "solids") add_tables(medians.figures, print_solids());
   if (only.empty() || only == "shells") add_tables(medians.figures, print_shells());
+  if (only.empty() || only == "poses") add_tables(medians.figures, print_poses());
   if (!json.empty()) write_json(json, medians.figures);
   return 0;
 }

@@ -8,8 +8,10 @@ namespace sinew::benchmarks {
 
 using Tables = std::map<std::string, std::map<std::string, double>>;
 
-/// Prints all tables; the figures by row and name, in milliseconds where they are times.
+/// Print tables of shells alone, and of shells between poses; the figures by row and name, in milliseconds where they
+/// are times.
 Tables print_shells();
+Tables print_poses();
 
 /// The cases of Botsch and Sorkine, at all vertices and at 1,000; a cylinder that is stretched (Figure 4).
 void print_shell_minima(Tables& figures);
