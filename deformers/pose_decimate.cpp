@@ -15,7 +15,7 @@ namespace sinew {
 namespace {
 
 using Triangle = std::array<Index, 3>;
-constexpr double boundary_weight = 10, point_weight = 1e-3;
+constexpr double boundary_weight = 10, point_weight = 1e-3, bend_weight = 0.05;
 
 bool has(const Triangle& t, Index v) {
   return t[0] == v || t[1] == v || t[2] == v;
@@ -190,7 +190,7 @@ void Decimation::add_quadrics() {
   quadrics_.resize(star_.size() * poses);
   for (Index number = 0; number < triangles_.size(); ++number) {
     const Triangle& t = triangles_[number];
-    const double bends = 1 + bending(number);
+    const double bends = 1 + bend_weight * bending(number);
     for (std::size_t k = 0; k < poses; ++k) {
       const Vec3 n = (at(k, t[1]) - at(k, t[0])).cross(at(k, t[2]) - at(k, t[0]));
       const double area = n.norm() / 2;
