@@ -75,7 +75,7 @@ poses() {
   until_done 30 title '^rest.obj \* - Sinew$'
   sleep 1
   shot added
-  drag 1170 360 1200 360 # the bar of "twisted"
+  drag 1170 384 1200 384 # the bar of "twisted"
   shot bar
   press ctrl+s
   name "$work/blend.json"
@@ -87,10 +87,10 @@ poses() {
   until_done 30 test -s "$work/window.obj"
   same_points "$work/rest.obj" "$work/blend.json"
   press ctrl+z
-  click 1226 312 # pin the first
-  click 1221 384 # Rest: all at 0
+  click 1226 336 # pin the first
+  click 1221 408 # Rest: all at 0
   shot rest
-  click 1139 384 # Free all
+  click 1139 408 # Free all
   handles
   no_pose
   leave
@@ -134,7 +134,7 @@ handles() {
   name "$work/window.obj"
   until_done 30 test -s "$work/window.obj"
   same_points "$work/rest.obj" "$work/pulled.json"
-  click 1226 336 # pin the second where it is
+  click 1226 360 # pin the second where it is
   press ctrl+s
   sleep 1
   weights=$(weights_of "$work/pulled.json")
@@ -145,7 +145,7 @@ handles() {
 # Another shape is told apart, and opened only if the user says so.
 no_pose() {
   press u
-  drag 1170 360 1180 360
+  drag 1170 384 1180 384
   press ctrl+o
   sleep 0.6
   xdotool type --delay 20 other
@@ -186,7 +186,7 @@ horse() {
   sleep 8
   press Return
   shot added
-  drag 1147 360 1190 360 # the bar of the third pose, to about 1
+  drag 1147 384 1190 384 # the bar of the third pose, to about 1
   sleep 2
   shot blended
   latency "$work/times" "the bar, 8,431 points"
@@ -204,7 +204,7 @@ horse() {
   follow 335 568 40
   sleep 4
   shot pulled
-  click 1132 656 # Structure
+  click 1132 680 # Structure
   sleep 1
   shot structure
   press ctrl+s
