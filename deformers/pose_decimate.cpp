@@ -9,6 +9,7 @@
 
 #include "deformers/shell_energy.h"
 #include "engine/geometry/check.h"
+#include "engine/geometry/triangle.h"
 
 namespace sinew {
 
@@ -47,38 +48,6 @@ class Quadric {
   Vec3 b_ = Vec3::Zero();
   double c_ = 0;
 };
-
-/// Barycentric coordinates of the point of segment a, b (corners i, j) that is nearest to p.
-Vec3 nearest_on_edge(const Vec3& p, const Vec3& a, const Vec3& b, int i, int j) {
-  const double length = (b - a).squaredNorm();
-  const double s = length > 0 ? std::clamp((p - a).dot(b - a) / length, 0.0, 1.0) : 0.0;
-  Vec3 coordinates = Vec3::Zero();
-  coordinates[i] = 1 - s;
-  coordinates[j] = s;
-  return coordinates;
-}
-
-/// Barycentric coordinates of the point of the triangle that is nearest to p; of any triangle, also a degenerate one.
-Vec3 nearest_on_triangle(const Vec3& p, const std::array<Vec3, 3>& corners) {
-  const auto& [a, b, c] = corners;
-  const Vec3 n = (b - a).cross(c - a);
-  const double nn = n.squaredNorm();
-  if (nn > 0) {
-    const Vec3 inside(n.dot((c - b).cross(p - b)) / nn, n.dot((a - c).cross(p - c)) / nn,
-                      n.dot((b - a).cross(p - a)) / nn);
-    if (inside.minCoeff() >= 0) return inside / inside.sum();
-  }
-  Vec3 best = nearest_on_edge(p, a, b, 0, 1);
-  double least = std::numeric_limits<double>::infinity();
-  for (const Vec3& q : {best, nearest_on_edge(p, b, c, 1, 2), nearest_on_edge(p, c, a, 2, 0)}) {
-    const double distance = (q[0] * a + q[1] * b + q[2] * c - p).squaredNorm();
-    if (distance < least) {
-      least = distance;
-      best = q;
-    }
-  }
-  return best;
-}
 
 class Decimation {
  public:
@@ -355,7 +324,7 @@ void Decimation::put(Index v, const std::vector<Index>& ring) {
   double least = std::numeric_limits<double>::infinity();
   for (const Index t : ring) {
     const auto [a, b, c] = triangles_[t];
-    const Vec3 q = nearest_on_triangle(at(0, v), {at(0, a), at(0, b), at(0, c)});
+    const Vec3 q = nearest_in_triangle(at(0, v), at(0, a), at(0, b), at(0, c));
     double distance = 0;
     for (std::size_t k = 0; k < points_.size(); ++k)
       distance += (q[0] * at(k, a) + q[1] * at(k, b) + q[2] * at(k, c) - at(k, v)).squaredNorm();

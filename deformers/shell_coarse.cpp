@@ -5,6 +5,7 @@
 #include "deformers/shell_pose.h"
 #include "engine/geometry/check.h"
 #include "engine/geometry/parallel.h"
+#include "engine/geometry/triangle.h"
 
 namespace sinew {
 

@@ -86,11 +86,17 @@ ShellEnergy::ShellEnergy(std::span<const std::vector<Vec3>> poses, std::span<con
     const double share = source.empty() ? 1 : volume != 0 ? volumes_[0] / volume : 0;
     volumes_[k] = share * (volumes_[k] - volume);
   }
-  weigh(poses[0], stiffness);
+  // Poses of another shape have areas of their own.
+  const std::span<const std::vector<Vec3>> own = source.empty() ? poses : poses.first(1);
+  for (const auto& [i, j, k] : triangles_) {
+    double least = INFINITY;
+    for (const std::vector<Vec3>& pose : own) least = std::min(least, twice_area(pose[i], pose[j], pose[k]));
+    areas_.push_back(least);
+  }
+  weigh(own, stiffness);
   if (stiffness.learned && poses.size() > 1) learn();
   if (closed && std::abs(volumes_[0]) > 1e-9) w_v_ = std::sqrt(stiffness.nu) / std::abs(volumes_[0]);
   alpha_.assign(examples(), 0);
-  for (const auto& [i, j, k] : triangles_) areas_.push_back(twice_area(poses[0][i], poses[0][j], poses[0][k]));
 }
 
 void ShellEnergy::measure(std::span<const Vec3> pose, std::vector<double>& lengths, std::vector<double>& angles) const {
@@ -101,7 +107,8 @@ void ShellEnergy::measure(std::span<const Vec3> pose, std::vector<double>& lengt
 }
 
 /// Eq. 8. An edge without length would weigh infinitely much: none weighs more than one of a thousandth of the mean.
-void ShellEnergy::weigh(std::span<const Vec3> rest, ShellStiffness stiffness) {
+void ShellEnergy::weigh(std::span<const std::vector<Vec3>> poses, ShellStiffness stiffness) {
+  const std::vector<Vec3>& rest = poses[0];
   const std::size_t m = edges_.size();
   w_s_.assign(m, 0);
   w_b_.assign(m, 0);
@@ -118,7 +125,10 @@ void ShellEnergy::weigh(std::span<const Vec3> rest, ShellStiffness stiffness) {
     const bool folds = std::any_of(angles_.begin() + 1, angles_.end(),
                                    [&](const std::vector<double>& change) { return std::abs(change[e]) > pi; });
     folds_ += folds;
-    least_[e] = {2 * A1 * least_area, 2 * A2 * least_area};
+    least_[e] = {INFINITY, INFINITY};
+    for (const std::vector<Vec3>& p : poses)
+      for (std::size_t side : {0, 1})
+        least_[e][side] = std::min(least_[e][side], least_area * twice_area(p[x[0]], p[x[1]], p[x[2 + side]]));
     if (folds || std::min(A1, A2) <= thin) continue;
     w_b_[e] = std::sqrt(stiffness.mu) * L / std::sqrt(A1 + A2);
   }

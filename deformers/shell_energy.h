@@ -117,7 +117,8 @@ class ShellEnergy {
   std::vector<double> vertex_energies(std::span<const Vec3> x) const;
 
   static constexpr double w_c = 3e3;  ///< of ties
-  /// Of its area at rest: below this share a triangle counts as so large in the gradient of its angles.
+  /// Of the least area that it has in a pose: below this share a triangle counts as so large in the gradient of its
+  /// angles.
   static constexpr double least_area = 0.3;
 
  private:
@@ -130,7 +131,7 @@ class ShellEnergy {
   static constexpr std::size_t no_slot = ~std::size_t{0};
 
   void measure(std::span<const Vec3> pose, std::vector<double>& lengths, std::vector<double>& angles) const;
-  void weigh(std::span<const Vec3> rest, ShellStiffness stiffness);
+  void weigh(std::span<const std::vector<Vec3>> poses, ShellStiffness stiffness);
   void learn();
   /// A row of J with its residual: gradients by the corners of `edge`, and by each alpha -w times the change there.
   struct Row {
@@ -146,7 +147,7 @@ class ShellEnergy {
   double volume_residual(std::span<const Vec3> x) const;
 
   std::vector<Triangle> triangles_;
-  std::vector<double> areas_;  ///< twice, at rest
+  std::vector<double> areas_;  ///< twice the least, over all poses
   std::vector<ShellEdge> edges_;
   std::vector<std::vector<double>> lengths_, angles_;  ///< at rest; then each example's difference from that
   std::vector<double> volumes_;                        ///< likewise

@@ -46,15 +46,4 @@ class ShellSurface {
   std::vector<Triangle> triangles_;
 };
 
-/// Barycentric coordinates of the point of a triangle that is nearest to p.
-Vec3 nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
-
-/// p = weights a, b, c + height n: the coordinates of any p, which may lie beside the triangle. Of a triangle without
-/// area, the nearest corner's.
-struct TriangleCoordinates {
-  Vec3 weights = Vec3::Zero();
-  double height = 0;
-};
-TriangleCoordinates coordinates_in(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
-
 }  // namespace sinew

@@ -241,10 +241,18 @@ GaussNewtonModel ShellSolver::model() {
   return out;
 }
 
+/// Where nothing is held, from the example that more than half is taken of, not from rest: there E has steps and minima
+/// between the two, and beside each of the poses is the lower one.
+void ShellSolver::begin_near_a_pose() {
+  if (!held_.vertices.empty() || !held_.ties.empty() || x_ != rest() || base_ != rest()) return;
+  const auto most = std::max_element(alpha_.begin(), alpha_.end());
+  if (most != alpha_.end() && *most > 0.5) x_ = poses_[static_cast<std::size_t>(most - alpha_.begin()) + 1];
+}
+
 /// Moves what is held to its targets and everything else as it goes along to first order: the step that makes J'J of
 /// both together zero where the free ones are.
 void ShellSolver::go_to(std::span<const Vec3> targets) {
-  energy_.set_targets({targets.begin() + static_cast<std::ptrdiff_t>(held_.vertices.size()), targets.end()});
+  set_tie_targets(targets);
   std::vector<Vec3> d(x_.size(), Vec3::Zero());
   double farthest = 0;
   for (std::size_t i = 0; i < held_.vertices.size(); ++i) {
@@ -267,8 +275,12 @@ void ShellSolver::go_to(std::span<const Vec3> targets) {
   snap_to(targets);
 }
 
-void ShellSolver::snap_to(std::span<const Vec3> targets) {
+void ShellSolver::set_tie_targets(std::span<const Vec3> targets) {
   energy_.set_targets({targets.begin() + static_cast<std::ptrdiff_t>(held_.vertices.size()), targets.end()});
+}
+
+/// The held vertices alone.
+void ShellSolver::snap_to(std::span<const Vec3> targets) {
   for (std::size_t i = 0; i < held_.vertices.size(); ++i) x_[held_.vertices[i]] = targets[i];
 }
 
@@ -296,6 +308,7 @@ SolveReport ShellSolver::solve(const Path& path, int stretches, const SolveOptio
   const auto begin = std::chrono::steady_clock::now();
   for (std::size_t k = 0; k < std::min(alpha_.size(), held_.weights.size()); ++k)
     if (held_.weights[k]) alpha_[k] = *held_.weights[k];
+  begin_near_a_pose();
   const bool final_answer = options.quality == SolveOptions::Quality::Final;
   GaussNewtonOptions own;
   own.epsilon = options.epsilon;
@@ -307,7 +320,10 @@ SolveReport ShellSolver::solve(const Path& path, int stretches, const SolveOptio
   const int most = (final_answer ? 3 : 1) * options.max_iterations;
   GaussNewtonResult result;
   int iterations = 0;
-  if (stretches == 0) snap_to(path(1));
+  if (stretches == 0) {
+    set_tie_targets(path(1));
+    snap_to(path(1));
+  }
   for (int i = std::min(1, stretches); i <= stretches; ++i) {
     if (i > 0) go_to(path(static_cast<double>(i) / stretches));
     const int left = most - iterations;
@@ -344,6 +360,7 @@ SolveReport ShellSolver::solve_twice(const Path& path, int stretches, const Solv
   if (report.status == Status::Stopped) return report;
   std::vector<Vec3> x = std::exchange(x_, start);
   std::vector<double> alpha = std::exchange(alpha_, start_alpha);
+  kept_.usable = false;
   SolveReport second = solve(path, 0, options, on_iteration);
   const int iterations = report.iterations + second.iterations;
   const double seconds = report.solve_seconds + second.solve_seconds;

@@ -29,9 +29,8 @@ struct ShellHeld {
   std::vector<ShellTie> ties;     ///< points between vertices
   std::vector<double> stiffness;  ///< of each vertex, 1: as it is; empty: everywhere
   std::vector<std::optional<double>>
-      weights;  ///< of examples; those missing or without a number are unknowns, or 0 where
-                ///< nothing is held that could tell
-                ///< or, where nothing is held that could tell, stay as they are
+      weights;  ///< of examples; those missing or without a number are unknowns, or where nothing is held that
+                ///< could tell, stay as they are: 0 after rest
   bool operator==(const ShellHeld&) const = default;
 };
 
@@ -49,7 +48,8 @@ class ShellSolver {
   /// Where what is held is to be after a share 0..1 of its way: held vertices, then ties.
   using Path = std::function<std::vector<Vec3>(double share)>;
 
-  /// From the present x and alpha, along the path in so many stretches: a step that pushed what is held all the way at
+  /// From the present x and alpha (from rest, where nothing is held and more than half of an example is asked for, from
+  /// that), along the path in so many stretches: a step that pushed what is held all the way at
   /// once would fold the surface beside it, and a fold stays. Each stretch begins with what the free vertices do to
   /// first order as the held ones go. None: what is held is at once where it is to be, as in the paper.
   SolveReport solve(const Path& path, int stretches, const SolveOptions& options,
@@ -74,6 +74,8 @@ class ShellSolver {
   void number_unknowns();
   GaussNewtonModel model();
   void go_to(std::span<const Vec3> targets);
+  void begin_near_a_pose();
+  void set_tie_targets(std::span<const Vec3> targets);
   void snap_to(std::span<const Vec3> targets);
   void take_best(const GaussNewtonModel& gn, std::span<const double> step, std::span<const Vec3> targets);
   void lay_free_parts();

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "engine/geometry/topology.h"
+#include "engine/geometry/triangle.h"
 
 namespace sinew {
 
@@ -13,27 +14,8 @@ namespace {
 
 using Triangle = std::array<Vec3, 3>;
 
-Vec3 nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 d = b - a;
-  const double length2 = d.squaredNorm();
-  return length2 > 0 ? Vec3(a + std::clamp((p - a).dot(d) / length2, 0.0, 1.0) * d) : a;
-}
-
 Vec3 normal_of(const Triangle& t) {
   return (t[1] - t[0]).cross(t[2] - t[0]).stableNormalized();
-}
-
-Vec3 nearest_on_triangle(const Vec3& p, const Triangle& t) {
-  const Vec3 n = normal_of(t);
-  bool inside = n.squaredNorm() > 0;
-  for (std::size_t k = 0; k < 3 && inside; ++k) inside = n.cross(t[(k + 1) % 3] - t[k]).dot(p - t[k]) >= 0;
-  if (inside) return p - n.dot(p - t[0]) * n;
-  Vec3 best = t[0];
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 q = nearest_on_segment(p, t[k], t[(k + 1) % 3]);
-    if ((q - p).squaredNorm() < (best - p).squaredNorm()) best = q;
-  }
-  return best;
 }
 
 void halve(const Triangle& t, double longest, std::vector<Triangle>& out) {
@@ -93,7 +75,8 @@ SurfacePieces::Place SurfacePieces::nearest(const Vec3& p) const {
   double least = std::numeric_limits<double>::infinity();
   for (const std::uint32_t i : near) {
     if (i == NearestTree::none) break;
-    const Vec3 q = nearest_on_triangle(p, pieces_[i]);
+    const Triangle& t = pieces_[i];
+    const Vec3 w = nearest_in_triangle(p, t[0], t[1], t[2]), q = w[0] * t[0] + w[1] * t[1] + w[2] * t[2];
     if (const double d = (q - p).squaredNorm(); d < least) {
       least = d;
       best = {q, normal_of(pieces_[i])};
