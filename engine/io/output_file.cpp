@@ -42,6 +42,25 @@ int open_temporary(const std::filesystem::path& target, std::string& name) {
   return -1;
 }
 
+/// The file that a name stands for, through links, whether it is there or not.
+std::string target_of(const std::string& path) {
+  std::filesystem::path target(path);
+  std::error_code error;
+  for (int links = 0; links < 40 && std::filesystem::is_symlink(target, error); ++links) {
+    const std::filesystem::path next = std::filesystem::read_symlink(target, error);
+    if (error) break;
+    target = target.parent_path() / next;  // an absolute one stands for itself
+  }
+  return target.string();
+}
+
+/// Owner and mode of the file that is replaced. Root may give a file to another; anybody else owns what he writes.
+bool keep_mode(int file, const struct stat& status) {
+  if (fchown(file, status.st_uid, status.st_gid) != 0 && fchown(file, static_cast<uid_t>(-1), status.st_gid) != 0)
+    errno = 0;
+  return fchmod(file, status.st_mode & 07777) == 0;
+}
+
 }  // namespace
 
 void refuse_existing(const std::string& path, bool force) {
@@ -60,13 +79,16 @@ OutputFile::OutputFile(const std::string& path, bool force) : path_(path), targe
     if (file_ < 0) fail("a file that can be written");
     return;
   }
-  std::error_code none;
-  if (std::filesystem::is_symlink(path, none)) target_ = std::filesystem::weakly_canonical(path, none).string();
+  target_ = target_of(path);
   struct stat status;
   const bool exists = stat(target_.c_str(), &status) == 0;
   file_ = open_temporary(target_, temporary_);
   if (file_ < 0) fail("a folder that can be written");
-  if (exists && fchmod(file_, status.st_mode & 07777) != 0) fail("to keep the mode of the file");
+  if (!exists || keep_mode(file_, status)) return;
+  const InputError error = file_error(path_, "to keep the mode of the file", reason());
+  close(file_);
+  unlink(temporary_.c_str());
+  throw error;
 }
 
 OutputFile::~OutputFile() {
@@ -110,9 +132,16 @@ void OutputFile::commit() {
   temporary_.clear();
   const std::string parent = std::filesystem::path(target_).parent_path().string();
   const int folder = open(parent.empty() ? "." : parent.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder < 0) return;  // a folder that can be written but not read: the file is there
-  fsync(folder);
+  if (folder < 0) {
+    if (errno == EACCES) return;  // it can be written but not read: the file is there
+    fail("to bring the file's new name to the disk");
+  }
+  // Not every file system knows fsync of folders.
+  const bool kept = fsync(folder) == 0 || errno == EINVAL;
+  const int error = errno;
   close(folder);
+  errno = error;
+  if (!kept) fail("to bring the file's new name to the disk");
 }
 
 }  // namespace sinew::io
