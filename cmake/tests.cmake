@@ -54,6 +54,9 @@ if(SINEW_EDITOR)
     add_test(NAME editor_${what} COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_test.sh $<TARGET_FILE_DIR:sinew-editor> ${what})
     set_tests_properties(editor_${what} PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)
   endforeach()
+  add_test(NAME editor_recover
+           COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_recover_test.sh $<TARGET_FILE_DIR:sinew-editor> recover)
+  set_tests_properties(editor_recover PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)
   foreach(what poses horse)
     add_test(NAME editor_${what} COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_poses_test.sh $<TARGET_FILE_DIR:sinew-editor> ${what})
     set_tests_properties(editor_${what} PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)
@@ -67,3 +70,12 @@ add_test(NAME client_blender CONFIGURATIONS clients
 add_test(NAME client_splat_transform CONFIGURATIONS clients
          COMMAND ${CMAKE_SOURCE_DIR}/tests/clients/splat_transform.sh $<TARGET_FILE_DIR:sinew>)
 set_tests_properties(client_blender client_splat_transform PROPERTIES LABELS client TIMEOUT 900 SKIP_RETURN_CODE 77)
+
+# Never losing work: saves and journals that are killed or fail at each of their system calls.
+add_executable(sinew-saver tests/safety/saver.cpp)
+target_link_libraries(sinew-saver PRIVATE sinew_document)
+add_test(NAME safety_kills COMMAND ${CMAKE_SOURCE_DIR}/tests/safety/kill_test.sh $<TARGET_FILE_DIR:sinew-saver>)
+set_tests_properties(safety_kills PROPERTIES LABELS safety TIMEOUT 300 SKIP_RETURN_CODE 77)
+add_executable(sinew-editing tests/safety/editing.cpp)
+target_link_libraries(sinew-editing PRIVATE sinew_editor_core)
+add_dependencies(test_editor_core sinew-editing)

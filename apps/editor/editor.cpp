@@ -63,6 +63,10 @@ Editor::Editor(const EditorOptions& options)
       mouse_(context_),
       ui_{context_, stage_, mouse_} {
   open_later(options.files);
+  if (const std::string folder = document::journal_folder(); !folder.empty()) {
+    session_.keep_journal(folder);
+    ui_.recovery.look(folder);
+  }
   LoadedPreferences loaded = load_preferences(preferences_path_);
   preferences_ = saved_preferences_ = loaded.preferences;
   if (!loaded.notice.empty()) session_.notify(Severity::Warning, loaded.notice);
@@ -96,6 +100,7 @@ void Editor::run() {
     open_next();
     if (window_.played_all() && !busy) quit_ = true;
   }
+  session_.leave();
 }
 
 void Editor::use_preferences() {
@@ -190,6 +195,7 @@ void Editor::take_changes() {
   }
   const Changed changed = session_.poll();
   stage_.note(changed);
+  for (std::string& problem : ui_.recovery.poll()) session_.notify(Severity::Warning, std::move(problem));
   if (changed.marks || changed.input) ui_.marks = count_marks(session_);
   if (changed.input) show_new_input();
   if (changed.any()) frames_wanted_ = std::max(frames_wanted_, 1);

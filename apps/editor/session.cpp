@@ -23,6 +23,7 @@ Session::Session(std::span<const Method> methods, std::function<void()> wake)
       wake_(std::move(wake)),
       background_(std::make_unique<Background>(wake_)),
       measuring_(std::make_unique<Background>(wake_)),
+      hashing_(std::make_unique<Background>(wake_)),
       solver_(std::make_unique<document::SolverThread>(methods_, wake_)) {}
 
 Session::~Session() {
@@ -39,6 +40,7 @@ Changed Session::poll() {
   advance();
   start_waiting();
   measure();
+  watch_journal();
   return std::exchange(changed_, {});
 }
 

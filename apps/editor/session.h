@@ -25,6 +25,7 @@
 #include "apps/editor/point_set.h"
 #include "apps/editor/repeatable.h"
 #include "engine/document/history.h"
+#include "engine/document/journal.h"
 #include "engine/document/markers.h"
 #include "engine/document/solver_thread.h"
 #include "engine/geometry/bounds.h"
@@ -114,6 +115,17 @@ class Session {
   /// Writes the bent shape, as soon as the answer is settled. `force` replaces an existing file; without, it is a
   /// notice.
   void export_shape(const std::string& path, bool force = false);
+
+  // Never losing work: a journal of every step
+
+  /// From now on; in document::journal_folder().
+  void keep_journal(const std::string& folder);
+  /// Opens what a program that was killed had open, with its history; once that is in this program's journal, the old
+  /// one is removed. Where the input can't be read, it stays.
+  void recover(std::shared_ptr<document::OldJournal> journal);
+  /// The user leaves: what waits to be saved is saved, and the journal is removed, or kept where that failed.
+  void leave();
+  const document::Journal* journal() const { return journal_.get(); }
 
   std::optional<Job> job() const;  ///< what runs now: reading, writing, or preparing a layer
   void cancel_job();
@@ -301,8 +313,9 @@ class Session {
   struct Opened;
   /// What is to be opened next.
   struct Opening {
-    enum class As { Either, Shape, Poses, FirstPoses } as = As::Either;
+    enum class As { Either, Shape, Poses, FirstPoses, Recovered } as = As::Either;
     std::vector<std::string> paths;
+    std::shared_ptr<document::OldJournal> journal = nullptr;
   };
   /// What waits until the answer is settled.
   struct Waiting {
@@ -335,6 +348,13 @@ class Session {
   const document::LayerResult* shown_layer() const;
   void open_now(const Opening& opening);
   void read(const std::string& path);
+  void read_journal(const std::shared_ptr<document::OldJournal>& journal);
+  static void read_shape(Opened& opened, const Tell& tell);
+  static void read_motion(Opened& opened);
+  static void prepare(Opened& opened);
+  void begin_journal(const Opened& opened);
+  void watch_journal();
+  void hash_input(const std::vector<std::string>& expected);
   void show(Opened opened);
   void apply(document::Project project, const std::string& label);
   void project_changed();
@@ -345,7 +365,7 @@ class Session {
   void measure();
   bool settled() const;
   void start_waiting();
-  void finish_waiting();
+  bool finish_waiting();
   void resume(Drag drag);
   void save_now(const Waiting& waiting);
   void export_now(const Waiting& waiting);
@@ -410,7 +430,9 @@ class Session {
   std::optional<Opening> next_open_;
   std::optional<std::string> declined_;
   std::vector<Waiting> waiting_;
-  std::unique_ptr<Background> background_, measuring_;
+  std::unique_ptr<document::Journal> journal_;
+  std::string input_hash_;  ///< input_hash.h; empty: not known yet, or there is none
+  std::unique_ptr<Background> background_, measuring_, hashing_;
   std::unique_ptr<document::SolverThread> solver_;  ///< last: it goes first
 };
 

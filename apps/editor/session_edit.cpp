@@ -63,6 +63,7 @@ void Session::project_changed() {
   handle_centres_.reset();
   marks_ready_ = false;
   dirty_ = !(project() == saved_);
+  if (journal_ != nullptr && has_input()) journal_->note(history_);
   changed_.project = changed_.marks = true;
 }
 

@@ -1,6 +1,6 @@
 #include <filesystem>
 
-#include "apps/editor/session.h"
+#include "apps/editor/session_opened.h"
 #include "engine/document/edit.h"
 #include "engine/document/evaluate.h"
 #include "engine/document/settings.h"
@@ -57,22 +57,6 @@ std::string pattern_of_run(const std::string& path) {
   return (fs::path(path).parent_path() / pattern).string();
 }
 
-/// What a file gave, on its way from the reader's thread.
-struct Session::Opened {
-  std::shared_ptr<const Sequence> sequence;
-  std::shared_ptr<const Shape> shape;  ///< its first frame
-  bool stream = false;
-  std::size_t run = 0;  ///< how many numbered files the input is one of
-  std::string input_path, edit_path;
-  document::Project project;
-  std::shared_ptr<document::Selector> selector;
-  std::map<std::string, document::MotionTime> motions;  ///< by path
-  std::vector<std::string> notes;                       ///< on the motion
-  Bounds bounds;
-  PointSet finite;
-  bool on_disk = true;  ///< the project is what the edit's file says
-};
-
 void Session::open(const std::vector<std::string>& paths) {
   open_next({Opening::As::Either, paths});
 }
@@ -95,7 +79,7 @@ void Session::open_next(Opening opening) {
 }
 
 /// All that takes long for a big shape: bounds, which points are finite, what the selections of the layers are.
-static void prepare(auto& opened) {
+void Session::prepare(Opened& opened) {
   if (opened.sequence == nullptr) opened.sequence = std::make_shared<const Sequence>(still(opened.shape));
   opened.stream = is_stream(*opened.sequence, *opened.shape);
   opened.bounds = bounds_of(opened.shape->positions);
@@ -108,7 +92,9 @@ static void prepare(auto& opened) {
 void Session::open_now(const Opening& opening) {
   const std::string& path = opening.paths.front();
   const bool several = opening.paths.size() > 1 || fs::is_directory(path);
-  if (opening.as == Opening::As::Poses || opening.as == Opening::As::FirstPoses) {
+  if (opening.as == Opening::As::Recovered) {
+    read_journal(opening.journal);
+  } else if (opening.as == Opening::As::Poses || opening.as == Opening::As::FirstPoses) {
     open_poses(opening);
   } else if (opening.as == Opening::As::Shape) {
     read(path);
@@ -135,30 +121,40 @@ void Session::read(const std::string& path) {
       opened->input_path = opened->project.inputs.empty() ? "" : absolute(opened->project.inputs.front());
     }
     if (!opened->input_path.empty()) {
-      io::ReadOptions options;
-      options.progress = tell;
-      opened->sequence = std::make_shared<const Sequence>(io::open_sequence(opened->input_path, options));
-      opened->shape = opened->sequence->load(opened->sequence->frames.front());
-      if (opened->sequence->frames.size() == 1) opened->run = files_of_run(opened->input_path);
+      read_shape(*opened, tell);
     } else if (present != nullptr) {
       opened->shape = present;
       opened->sequence = present_sequence;
       opened->input_path = present_path;
       opened->on_disk = false;  // the file lacks the input's name
+      read_motion(*opened);
     } else {
       throw file_error(path, "an edit with \"inputs\", or its shape opened before", "an edit alone");
     }
     opened->project.inputs = {opened->input_path};
-    if (const document::MarkersEdit* driving = document::driving_markers(opened->project.layers)) {
-      const document::Markers markers(*driving, *opened->shape);
-      opened->motions[driving->path] = markers.time();
-      opened->notes = notes_of(markers);
-    }
     prepare(*opened);
     if (!tell(1)) throw io::Cancelled{};
     return [this, opened] { show(std::move(*opened)); };
   };
   background_->start("Reading " + name_of(path), true, work);
+}
+
+/// The sequence and the shape of Opened::input_path, and the motion that drives it.
+void Session::read_shape(Opened& opened, const Tell& tell) {
+  io::ReadOptions options;
+  options.progress = tell;
+  opened.sequence = std::make_shared<const Sequence>(io::open_sequence(opened.input_path, options));
+  opened.shape = opened.sequence->load(opened.sequence->frames.front());
+  if (opened.sequence->frames.size() == 1) opened.run = files_of_run(opened.input_path);
+  read_motion(opened);
+}
+
+void Session::read_motion(Opened& opened) {
+  const document::MarkersEdit* driving = document::driving_markers(opened.project.layers);
+  if (driving == nullptr) return;
+  const document::Markers markers(*driving, *opened.shape);
+  opened.motions[driving->path] = markers.time();
+  opened.notes = notes_of(markers);
 }
 
 void Session::adopt(std::shared_ptr<const Shape> shape, const std::string& path, document::Project project) {
@@ -184,8 +180,9 @@ void Session::show(Opened opened) {
   finite_ = std::move(opened.finite);
   selection_ = PointSet(input_->size());
   selector_ = std::move(opened.selector);
-  history_ = document::History(opened.project);
+  history_ = opened.journal ? history_of(opened.journal->content()) : document::History(opened.project);
   saved_ = opened.on_disk ? opened.project : document::Project{};
+  begin_journal(opened);
   layer_ = opened.project.layers.empty() ? 0 : opened.project.layers.size() - 1;
   changed_.input = true;
   if (opened.run > 1)
@@ -194,11 +191,15 @@ void Session::show(Opened opened) {
   for (const std::string& note : opened.notes) notify(Severity::Info, note);
   for (const std::string& note : input_->notes) notify(Severity::Info, name_of(input_path_) + ": " + note);
   project_changed();
+  hash_input(opened.project.hashes.of);
   ask(SolveOptions::Quality::Final, project());
 }
 
 void Session::close() {
   finish_waiting();
+  if (journal_ != nullptr) journal_->end();
+  hashing_->cancel();
+  input_hash_.clear();
   solver_->cancel();
   drag_.reset();
   settling_.reset();
@@ -252,18 +253,17 @@ void Session::export_shape(const std::string& path, bool force) {
 }
 
 /// Before another shape takes the place of this one: what was to be saved is saved as it stands.
-void Session::finish_waiting() {
+bool Session::finish_waiting() {
+  bool saved = true;
   for (const Waiting& waiting : std::exchange(waiting_, {})) {
     if (waiting.what == Waiting::What::Export) {
       notify(Severity::Warning,
              name_of(waiting.path) + " was not written: another file was opened before it could be.");
       continue;
     }
-    refuse([&] {
-      const std::string text = document::edit_text(waiting.path, project());
-      io::save_bytes(waiting.path, std::as_bytes(std::span(text)), true);
-    });
+    saved &= refuse([&] { save_project(waiting.path, project(), input_hash_); });
   }
+  return saved;
 }
 
 /// Begins the next work that waits for its turn on the background thread.
@@ -292,14 +292,14 @@ void Session::start_waiting() {
 }
 
 void Session::save_now(const Waiting& waiting) {
-  const auto work = [this, path = waiting.path, project = project(),
-                     input = input_](const Tell&) -> Background::Finish {
-    const std::string text = document::edit_text(path, project);
-    io::save_bytes(path, std::as_bytes(std::span(text)), true);
-    return [this, path, project, input] {
+  const auto work = [this, path = waiting.path, project = project(), input = input_, hash = input_hash_,
+                     serial = history_.state(history_.position()).serial](const Tell&) -> Background::Finish {
+    save_project(path, project, hash);
+    return [this, path, project, input, serial] {
       if (input != input_) return;
       saved_ = project;
       edit_path_ = path;
+      if (journal_ != nullptr) journal_->saved(history_, serial, path);
       project_changed();
       notify(Severity::Info, "Saved " + name_of(path) + ".");
     };

@@ -27,6 +27,7 @@ void show_ui(Ui& ui) {
   show_menu(ui);
   show_tools(ui);
   show_column(ui);
+  show_history(ui);
   show_start(ui);
   show_timeline(ui);
   show_status(ui);
@@ -35,6 +36,7 @@ void show_ui(Ui& ui) {
   show_palette(ui);
   show_keymap(ui);
   show_dialogs(ui);
+  show_recovery(ui);
   ui.files.show(ui.context.preferences.recent);
 }
 

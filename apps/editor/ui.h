@@ -7,8 +7,10 @@
 
 #include "apps/editor/commands.h"
 #include "apps/editor/mouse.h"
+#include "apps/editor/recovery.h"
 #include "apps/editor/stage.h"
 #include "apps/editor/ui_files.h"
+#include "apps/editor/window.h"
 
 namespace sinew::editor {
 
@@ -51,6 +53,8 @@ struct Ui {
   std::vector<Toast> toasts;
   bool palette = false, keymap = false, about = false, settings = false, navigation_choice = false;
   Question ask;
+  Recovery recovery{Window::wake};
+  std::size_t history_seen = 0;  ///< the present step when the history was shown last
   std::string palette_text;
   int palette_row = 0;
   std::size_t renaming = ~std::size_t{0};  ///< layer whose name is being typed
@@ -63,7 +67,8 @@ struct Ui {
   double next_frame = 1e300;  ///< when, by now(), the interface will change by itself
 
   bool dialog() const {
-    return files.shown() || palette || keymap || about || settings || navigation_choice || !ask.text.empty();
+    return files.shown() || palette || keymap || about || settings || navigation_choice || !ask.text.empty() ||
+           recovery.offered() != nullptr;
   }
 };
 
@@ -83,6 +88,8 @@ float timeline_height(const Ui& ui);  ///< pixels; 0 for a still
 void show_start(Ui& ui);              ///< while nothing is open
 void show_job(Ui& ui);
 void show_toasts(Ui& ui);
+void show_history(Ui& ui);
+void show_recovery(Ui& ui);
 void show_palette(Ui& ui);
 void show_keymap(Ui& ui);
 void show_dialogs(Ui& ui);  ///< about, settings, navigation

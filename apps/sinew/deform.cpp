@@ -7,6 +7,7 @@
 #include "apps/sinew/deform.h"
 #include "apps/sinew/deform_frames.h"
 #include "apps/sinew/files.h"
+#include "apps/sinew/input_check.h"
 #include "apps/sinew/progress.h"
 #include "apps/sinew/task.h"
 #include "deformers/methods.h"
@@ -115,7 +116,14 @@ int run_deform(const DeformOptions& options, const std::function<document::Proje
   const Clock::time_point begin = Clock::now();
   check_outputs(options);
   const document::Project project = edit();
-  if (many_frames(options, project)) return run_frames(options, project, begin);
+  // One task, or some frames, need not read all of the input for it.
+  const bool all = options.task.empty() && options.frames.empty();
+  InputCheck check(options.input, all ? project.hashes.of : std::vector<std::string>{});
+  if (many_frames(options, project)) {
+    const int status = run_frames(options, project, begin);
+    check.tell();
+    return status;
+  }
   check_output(options.out);
   document::Report report;
   const std::shared_ptr<const Shape> input = read_input(options.input, options.from);
@@ -123,6 +131,7 @@ int run_deform(const DeformOptions& options, const std::function<document::Proje
   check_folder(options.out, options.input, *input);
   const document::Evaluation evaluation = solve(input, project, !options.report.empty());
   const int status = status_of(evaluation, options.strict);
+  check.tell();
   if (status == Failed) return Failed;
 
   const Clock::time_point write_begin = Clock::now();

@@ -3,6 +3,8 @@
 #include <array>
 #include <filesystem>
 
+#include "engine/document/input_hash.h"
+#include "engine/document/shared_arrays.h"
 #include "engine/io/io.h"
 
 namespace sinew::document {
@@ -75,8 +77,15 @@ static void write_value(JsonWriter& out, const Corners& box) {
   out.end_array();
 }
 
+/// In a journal a long array is a text, its number among the arrays that stand beside.
 template <class T>
 static void read_value(const JsonFile& file, const Json& json, Shared<T>& shared) {
+  if (file.arrays() != nullptr && json.type == Json::Type::Text) {
+    const Shared<T>* array = file.arrays()->find<T>(json.text());
+    if (array == nullptr) throw file.error(json, "the number of an array before this");
+    shared = *array;
+    return;
+  }
   std::vector<T> values;
   read_value(file, json, values);
   shared = Shared<T>(std::move(values));
@@ -84,7 +93,10 @@ static void read_value(const JsonFile& file, const Json& json, Shared<T>& shared
 
 template <class T>
 static void write_value(JsonWriter& out, const Shared<T>& shared) {
-  write_value(out, shared.get());
+  if (out.arrays() != nullptr && shared.get().size() > SharedArrays::longest_in_text)
+    out.text(std::to_string(out.arrays()->number_of(shared)));
+  else
+    write_value(out, shared.get());
 }
 
 static void read_value(const JsonFile& file, const Json& json, std::optional<double>& value) {
@@ -365,6 +377,17 @@ static void fields(A& a, Is<Layer> auto& layer) {
   }
 }
 
+static void check_hashes(const ObjectReader& reader, const Project& project) {
+  const Json* json = reader.json().find("input_hashes");
+  if (json == nullptr) return;
+  if (project.hashes.of.size() != project.inputs.size())
+    throw reader.file().error(*json, "as many hashes as \"inputs\", " + std::to_string(project.inputs.size()),
+                              std::to_string(project.hashes.of.size()));
+  for (std::size_t i = 0; i < project.hashes.of.size(); ++i)
+    if (!is_input_hash(project.hashes.of[i]))
+      throw reader.file().error(json->items()[i], "\"sha256:\" and 64 hexadecimal digits");
+}
+
 template <class A>
 static void fields(A& a, Is<EditFile> auto& edit) {
   a.required("sinew", edit.version);
@@ -372,7 +395,9 @@ static void fields(A& a, Is<EditFile> auto& edit) {
     if (const Json* json = a.json().find("sinew"); json != nullptr && edit.version != 1)
       throw a.file().error(*json, "version 1 of the format");
   a.optional("inputs", edit.project.inputs);
+  a.optional("input_hashes", edit.project.hashes.of);
   a.required("layers", edit.project.layers);
+  if constexpr (A::reading) check_hashes(a, edit.project);
 }
 
 /// Applies `change` to every path of the project.
@@ -395,8 +420,8 @@ static void change_paths(Project& project, const Change& change) {
   }
 }
 
-Project parse_edit(const std::string& path, std::string text) {
-  const JsonFile file(path, std::move(text));
+Project parse_edit(const std::string& path, std::string text, const SharedArrays* arrays) {
+  const JsonFile file(path, std::move(text), arrays);
   EditFile edit;
   read_value(file, file.root(), edit);
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
@@ -412,6 +437,16 @@ std::string edit_text(const std::string& path, const Project& project) {
     return target.is_absolute() ? p : std::filesystem::absolute(target).lexically_proximate(folder).string();
   });
   JsonWriter out;
+  write_value(out, edit);
+  return out.result();
+}
+
+std::string edit_text(const Project& project, SharedArrays& arrays) {
+  EditFile edit{1, project};
+  change_paths(edit.project, [](const std::string& p) {
+    return p.empty() ? p : std::filesystem::absolute(p).lexically_normal().string();
+  });
+  JsonWriter out(&arrays);
   write_value(out, edit);
   return out.result();
 }

@@ -3,6 +3,7 @@
 /// big arrays, so a snapshot costs little.
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,18 +15,27 @@ namespace sinew::document {
 
 class History {
  public:
+  struct State {
+    std::string label;  ///< how it came about: "Fix 120 points"
+    Project project;
+    std::uint64_t serial = 0;  ///< no other state of this history has or had it
+  };
+
   /// `label` names how the first state came about ("Open").
-  explicit History(Project project, std::string label = "Open") {
-    states_.emplace_back(std::move(label), std::move(project));
+  explicit History(Project project, std::string label = "Open") { add(std::move(project), std::move(label)); }
+  /// From states that another history had, at least one, of which `present` is the present one.
+  History(std::vector<State> states, std::size_t present) : states_(std::move(states)), present_(present) {
+    CHECK(present < states_.size(), present, states_.size());
+    for (State& state : states_) state.serial = serials_++;
   }
 
-  const Project& present() const { return states_[present_].second; }
+  const Project& present() const { return states_[present_].project; }
 
   /// A new state after the present one; what had been undone is forgotten. A state equal to the present one adds none.
   void commit(Project project, std::string label) {
     if (project == present()) return;
     states_.erase(states_.begin() + static_cast<std::ptrdiff_t>(present_) + 1, states_.end());
-    states_.emplace_back(std::move(label), std::move(project));
+    add(std::move(project), std::move(label));
     ++present_;
   }
 
@@ -38,15 +48,21 @@ class History {
   /// For a history panel: states from the oldest, and which is present.
   std::size_t size() const { return states_.size(); }
   std::size_t position() const { return present_; }
-  const std::string& label(std::size_t state) const { return states_[state].first; }
+  const State& state(std::size_t state) const { return states_[state]; }
+  const std::string& label(std::size_t state) const { return states_[state].label; }
   void go_to(std::size_t state) {
     CHECK(state < states_.size(), state, states_.size());
     present_ = state;
   }
 
  private:
-  std::vector<std::pair<std::string, Project>> states_;
+  void add(Project project, std::string label) {
+    states_.push_back({std::move(label), std::move(project), serials_++});
+  }
+
+  std::vector<State> states_;
   std::size_t present_ = 0;
+  std::uint64_t serials_ = 0;
 };
 
 }  // namespace sinew::document

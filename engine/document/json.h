@@ -26,6 +26,7 @@
 namespace sinew::document {
 
 struct JsonMember;
+class SharedArrays;
 
 struct Json {
   enum class Type : std::uint8_t { Null, Bool, Number, Text, Array, Object };
@@ -58,8 +59,10 @@ struct Place {
 /// than 1000 members.
 class JsonFile {
  public:
-  JsonFile(std::string path, std::string text);
+  /// `arrays`: those that the text refers to by their numbers; null where it has them all itself. Must outlive this.
+  JsonFile(std::string path, std::string text, const SharedArrays* arrays = nullptr);
 
+  const SharedArrays* arrays() const { return arrays_; }
   const Json& root() const { return root_; }
   const std::string& path() const { return path_; }
   Place place(const Json& value) const;
@@ -70,6 +73,7 @@ class JsonFile {
  private:
   std::pair<std::int64_t, std::int64_t> line_and_column(std::size_t at) const;
 
+  const SharedArrays* arrays_;
   std::string path_, text_;
   std::vector<std::size_t> line_begins_;
   Json root_;
@@ -116,6 +120,10 @@ std::string json_text(const std::string& text);
 /// Writes indented JSON. Arrays of numbers stand on one line, arrays of objects one a line.
 class JsonWriter {
  public:
+  /// `arrays`: where long arrays go, in place of the text; null: none do. Must outlive this.
+  explicit JsonWriter(SharedArrays* arrays = nullptr) : arrays_(arrays) {}
+
+  SharedArrays* arrays() const { return arrays_; }
   void begin_object() { open('{'); }
   void end_object() { close('}'); }
   void begin_array(bool one_line) { open('[', one_line); }
@@ -131,6 +139,7 @@ class JsonWriter {
   void item();
   void new_line();
 
+  SharedArrays* arrays_;
   std::string out_;
   struct Level {
     bool one_line = false, empty = true;

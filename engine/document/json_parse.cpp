@@ -168,7 +168,8 @@ struct TreeBuilder : nlohmann::json_sax<nlohmann::json> {
 
 }  // namespace
 
-JsonFile::JsonFile(std::string path, std::string text) : path_(std::move(path)), text_(std::move(text)) {
+JsonFile::JsonFile(std::string path, std::string text, const SharedArrays* arrays)
+    : arrays_(arrays), path_(std::move(path)), text_(std::move(text)) {
   line_begins_.push_back(0);
   for (std::size_t i = 0; i < text_.size(); ++i)
     if (text_[i] == '\n') line_begins_.push_back(i + 1);

@@ -206,9 +206,16 @@ struct Layer {
 /// Whether what a method makes its structure of is the same in both.
 bool same_structure(const Layer& a, const Layer& b);
 
+/// Of the inputs as they were when the edit was saved (input_hash.h), one an input, or none. No part of the edit.
+struct InputHashes {
+  std::vector<std::string> of;
+  bool operator==(const InputHashes&) const { return true; }
+};
+
 struct Project {
   std::vector<std::string> inputs;  ///< paths, as SelectLabels::path
   std::vector<Layer> layers;        ///< the first works on the input, each other on the output of the one before
+  InputHashes hashes;
   bool operator==(const Project&) const = default;
 };
 

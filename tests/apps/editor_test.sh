@@ -74,6 +74,14 @@ story() {
   sleep 1
   shot broken
   title '^scan.ply - Sinew$' >/dev/null || fail "a broken file changed what is open"
+  head -c 300 "$work/edit.json" >"$work/cut.json"
+  press ctrl+o
+  sleep 0.6
+  xdotool type --delay 20 cut.json
+  press Return
+  sleep 1
+  shot cut
+  title '^scan.ply - Sinew$' >/dev/null || fail "a broken edit changed what is open"
   leave
   replay "$scan" "$work/window.ply"
 }

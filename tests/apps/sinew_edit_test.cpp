@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "engine/document/input_hash.h"
 #include "tests/apps/program.h"
 #include "tests/apps/sinew_fixtures.h"
 #include "tests/document/bad_edits.h"
@@ -98,6 +99,29 @@ TEST(SinewEdit, FilesThatAnEditNamesHaveTheirOwnSentences) {
             "sinew: " + (folder / "labels.sel") + ": expected 800 labels, one a point, found 2\n");
   EXPECT_EQ(message("none.sel"), "sinew: " + (folder / "none.sel") +
                                      ": expected a file that can be read, found \"No such file or directory\"\n");
+}
+
+TEST(SinewDeform, AnInputThatIsNotTheOneOfTheEditIsTold) {
+  const TemporaryFolder folder;
+  const std::string in = folder / "in.xyz", edit = folder / "edit.json", out = folder / "out.xyz";
+  std::string points;
+  for (int i = 0; i < 100; ++i) points += std::to_string(i % 10) + " " + std::to_string(i / 10) + " 0\n";
+  save(in, points);
+  const auto save_edit = [&](const std::string& hash) {
+    save(edit, "{\"sinew\": 1, \"inputs\": [\"in.xyz\"], \"input_hashes\": [\"" + hash +
+                   "\"], \"layers\": [{\"method\": \"graph\", \"handles\": [{\"points\": {\"indices\": [0]}, "
+                   "\"move\": [0, 0, 1]}], \"fixed\": [{\"indices\": [99]}]}]}");
+  };
+  save_edit(document::input_hash(in));
+  Outcome outcome = run_sinew({"deform", in, "--edit", edit, "-o", out});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.err.find("warning"), std::string::npos) << outcome.err;
+  const std::string bent = contents(out);
+  save_edit("sha256:" + std::string(64, '0'));
+  outcome = run_sinew({"deform", in, "--edit", edit, "-o", out, "--force"});
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_TRUE(outcome.err.ends_with("sinew: warning: " + document::sentence_of_other_input(in) + "\n")) << outcome.err;
+  EXPECT_EQ(contents(out), bent);
 }
 
 }  // namespace sinew

@@ -14,7 +14,7 @@ finish() {
   rm -rf "$work"
 }
 trap finish EXIT
-export HOME=$work/home XDG_CONFIG_HOME=$work/config SINEW_VALIDATION=${SINEW_VALIDATION:-1}
+export HOME=$work/home XDG_CONFIG_HOME=$work/config XDG_STATE_HOME=$work/state SINEW_VALIDATION=${SINEW_VALIDATION:-1}
 mkdir -p "$HOME"
 
 fail() {

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "engine/document/input_hash.h"
+#include "engine/io/sha256.h"
 #include "tests/document/bad_edits.h"
 
 namespace sinew::document {
@@ -116,6 +118,35 @@ TEST(Edit, PathsFollowTheFolderTheyAreSavedIn) {
   const Project moved = parse_edit("elsewhere/deep/e.json", edit_text("elsewhere/deep/e.json", project));
   EXPECT_EQ(project, moved);
   EXPECT_NE(edit_text("elsewhere/deep/e.json", project).find("../../edits/scan.ply"), std::string::npos);
+}
+
+TEST(Edit, HashesOfTheInputsStandBesideThemAndAreNoPartOfTheEdit) {
+  Project project = parse_edit("edits/e.json", everything);
+  EXPECT_TRUE(project.hashes.of.empty());
+  const Project without = project;
+  project.hashes.of = {"sha256:" + std::string(64, '0')};
+  EXPECT_EQ(project, without);
+  const std::string text = edit_text("edits/e.json", project);
+  EXPECT_NE(text.find("\"input_hashes\": [\"sha256:000"), std::string::npos) << text;
+  EXPECT_EQ(parse_edit("edits/e.json", text).hashes.of, project.hashes.of);
+}
+
+TEST(Edit, AHashIsThatOfSha256sum) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("sinew-hash-" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "a.0001.obj") << "abc";
+  std::ofstream(folder / "a.0002.obj");
+  const std::string one = input_hash((folder / "a.0001.obj").string());
+  EXPECT_EQ(one, "sha256:ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_TRUE(is_input_hash(one));
+  const std::string lines = one.substr(7) + "  a.0001.obj\n" +
+                            "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855  a.0002.obj\n";
+  EXPECT_EQ(input_hash((folder / "a.####.obj").string()),
+            "sha256:" + io::hexadecimal(io::sha256(std::as_bytes(std::span(lines)))));
+  EXPECT_EQ(input_hash((folder / "a.####.obj").string(), [] { return false; }), "");
+  EXPECT_THROW(input_hash((folder / "b").string()), InputError);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Edit, AChangedFieldIsNoticed) {

@@ -1,0 +1,82 @@
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/editor/gui.h"
+#include "apps/editor/icons.h"
+#include "apps/editor/theme.h"
+#include "apps/editor/ui.h"
+#include "apps/editor/widgets.h"
+
+namespace sinew::editor {
+
+namespace {
+
+/// One state, its whole row to click; what was undone is faint.
+bool show_step(const document::History& history, std::size_t state) {
+  const float width = ImGui::GetContentRegionAvail().x, height = px(measure::row);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::PushID(static_cast<int>(state));
+  const bool pressed = ImGui::InvisibleButton("step", {width, height});
+  ImGui::PopID();
+  const bool present = state == history.position(), undone = state > history.position();
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const ImVec2 end{at.x + width, at.y + height};
+  if (present || ImGui::IsItemHovered())
+    list->AddRectFilled(at, end, packed(present ? theme().chosen : theme().hover), px(4));
+  if (present) list->AddRectFilled(at, {at.x + px(3), end.y}, packed(theme().accent), px(1));
+  const float y = at.y + std::round(0.5f * (height - ImGui::GetFontSize()));
+  widget::text_at(list, ImGui::GetFont(), {at.x + px(12), y}, undone ? theme().faint : theme().text,
+                  widget::cut(history.label(state), width - px(20)));
+  return pressed;
+}
+
+}  // namespace
+
+/// All steps from the first, in a panel of its own at the left; a click goes there.
+void show_history(Ui& ui) {
+  Session& session = ui.context.session;
+  if (!ui.context.view.show_history || !session.has_input()) return;
+  const document::History& history = session.history();
+  const float width = px(248), head = px(36);
+  const float rows = static_cast<float>(std::min<std::size_t>(history.size(), 12)) * px(measure::row);
+  const float left = px(2 * measure::edge + measure::tool_column);
+  const float top_edge = ui.layout.top + px(measure::edge + 40);  // below the switches
+  const float room = ui.layout.bottom - px(16) - top_edge;
+  const float height = std::min(head + rows + px(8), room);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(6));
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(8), px(8)));
+  widget::begin_panel("history", {left, top_edge}, {width, height});
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  widget::text_at(list, fonts().bold, {at.x + px(4), at.y + px(2)}, theme().text, "History");
+  const std::string place = grouped(history.position()) + " of " + grouped(history.size() - 1);
+  const float close = px(20);
+  widget::text_at(list, ImGui::GetFont(),
+                  {at.x + width - px(16 + 8) - close - ImGui::CalcTextSize(place.c_str()).x, at.y + px(2)},
+                  theme().faint, place);
+  ImGui::SetCursorScreenPos({at.x + width - px(16) - close, at.y});
+  if (widget::icon_button(icon::close, "close", false, close, theme().quiet, "Close", "")) run(ui, "view.history");
+  ImGui::SetCursorScreenPos({at.x, at.y + head - px(8)});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
+  ImGui::BeginChild("steps", {0, 0}, false, ImGuiWindowFlags_NoNav);
+  const float top = static_cast<float>(history.position()) * px(measure::row), now = ImGui::GetScrollY();
+  const float page = ImGui::GetWindowHeight();
+  if (ui.history_seen != history.position() && (top < now || top + px(measure::row) > now + page))
+    ImGui::SetScrollY(std::max(0.0f, top + 0.5f * (px(measure::row) - page)));
+  ui.history_seen = history.position();
+  ImGuiListClipper clipper;
+  clipper.Begin(static_cast<int>(history.size()), px(measure::row));
+  std::optional<std::size_t> chosen;
+  while (clipper.Step())
+    for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+      if (show_step(history, static_cast<std::size_t>(i))) chosen = static_cast<std::size_t>(i);
+  ImGui::EndChild();
+  ImGui::PopStyleVar();
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+  if (chosen) session.go_to(*chosen);
+}
+
+}  // namespace sinew::editor
