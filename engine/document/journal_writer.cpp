@@ -209,7 +209,7 @@ void Journal::Writer::take_sync(const Sync& sync) {
   }
   unsynced_.erase(unsynced_.begin(), unsynced_.begin() + static_cast<std::ptrdiff_t>(sync.up_to - synced_));
   synced_ = sync.up_to;
-  told_ = false;
+  if (unsynced_.empty()) told_ = false;
   if (written_ > synced_) {
     ask_sync();
     return;
