@@ -34,16 +34,16 @@ bool show_step(const document::History& history, std::size_t state) {
 
 }  // namespace
 
-/// All steps from the first, in a panel of its own at the left; a click goes there.
+/// All steps from the first, in a panel of its own beside the column; a click goes there.
 void show_history(Ui& ui) {
   Session& session = ui.context.session;
   if (!ui.context.view.show_history || !session.has_input()) return;
   const document::History& history = session.history();
   const float width = px(248), head = px(36);
   const float rows = static_cast<float>(std::min<std::size_t>(history.size(), 12)) * px(measure::row);
-  const float left = px(2 * measure::edge + measure::tool_column);
-  const float top_edge = ui.layout.top + px(measure::edge + 40);  // below the switches
-  const float room = ui.layout.bottom - px(16) - top_edge;
+  const float left = ui.layout.column - px(measure::edge) - width;
+  const float top_edge = ui.layout.top + px(92);                 // below the axes
+  const float room = ui.layout.bottom - px(16 + 48) - top_edge;  // above hints
   const float height = std::min(head + rows + px(8), room);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(6));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(8), px(8)));

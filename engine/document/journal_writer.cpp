@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <utility>
 
 #include "engine/io/shared_file.h"
 
@@ -25,6 +26,14 @@ double seconds_now() {
 bool same_file(int file, const std::string& path) {
   struct stat a, b;
   return fstat(file, &a) == 0 && stat(path.c_str(), &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+/// Without it the file is there after a crash of the machine, but its name may not be.
+void sync_folder(const std::string& folder) {
+  const int file = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  fsync(file);
+  close(file);
 }
 
 }  // namespace
@@ -144,9 +153,14 @@ void Journal::Writer::open_file() {
     file_ = open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
     if (file_ < 0 && errno == EEXIST) continue;
     if (file_ < 0) return;
-    if (flock(file_, LOCK_EX | LOCK_NB) == 0 && same_file(file_, path_)) return;
-    close(file_);
-    file_ = -1;
+    if (flock(file_, LOCK_EX | LOCK_NB) == 0 && same_file(file_, path_)) {
+      sync_folder(folder_);
+      return;
+    }
+    const int error = errno;
+    unlink(path_.c_str());
+    close(std::exchange(file_, -1));
+    errno = error;
   }
 }
 

@@ -89,13 +89,13 @@ recover() {
   press ctrl+h
   sleep 0.5
   shot history
-  point 180 176 # the third row: with both marks, not dragged yet
+  point 860 216 # the third row: with both marks, not dragged yet
   xdotool click 1
   sleep 2
   shot jumped
   export_to marked.ply
   within "$(distance "$scan" "$work/marked.ply")" 0 || fail "the history did not go back to the marks"
-  point 180 200
+  point 860 240
   xdotool click 1
   sleep 2
   export_to jumped.ply
