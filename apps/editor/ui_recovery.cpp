@@ -32,8 +32,9 @@ void show_recovery(Ui& ui) {
   ImGui::SameLine(0, gap);
   const bool discard = widget::button("Discard", false, width);
   ImGui::SameLine(0, gap);
-  const bool recover =
-      widget::button("Recover", true, width) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
+  // Enter may have closed the dialog before this one.
+  const bool entered = !ImGui::IsWindowAppearing() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter), false);
+  const bool recover = widget::button("Recover", true, width) || entered;
   widget::end_dialog(shown);
   if (recover) {
     ui.context.session.recover(ui.recovery.recover());

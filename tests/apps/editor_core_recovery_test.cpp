@@ -184,6 +184,19 @@ TEST_F(EditorRecovery, WhatWasSavedBeforeItIsKnown) {
   EXPECT_FALSE(session->dirty()) << "that is what the file holds";
 }
 
+TEST_F(EditorRecovery, LaterOffersItAgainAndDiscardNeverAgain) {
+  auto session = begin_open();
+  edit_some(*session);
+  session.reset();
+  offered().reset();  // later
+  EXPECT_EQ(journals(), 1u);
+  const auto journal = offered();
+  ASSERT_NE(journal, nullptr);
+  journal->discard();
+  EXPECT_EQ(offered(), nullptr);
+  EXPECT_EQ(journals(), 0u);
+}
+
 TEST_F(EditorRecovery, WithoutItsInputTheJournalStays) {
   auto session = begin_open();
   edit_some(*session);

@@ -127,6 +127,31 @@ TEST(Io, ALinkIsFollowed) {
   EXPECT_EQ(text_of_file(folder / "target"), "new");
 }
 
+TEST(Io, ALinkToAFileThatIsNotThereYetIsFollowed) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "deep");
+  std::filesystem::create_symlink("deep/second", folder / "first");
+  std::filesystem::create_symlink("target", folder / "deep/second");
+  save_bytes(folder / "first", bytes_of("new"), false);
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "first"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "deep/second"));
+  EXPECT_EQ(text_of_file(folder / "deep/target"), "new");
+  std::filesystem::create_symlink("round", folder / "round");
+  EXPECT_NE(sentence_of([&] { save_bytes(folder / "round/file", bytes_of("new"), false); }), "");
+}
+
+TEST(Io, AReplacedFileKeepsItsOwner) {
+  const TemporaryFolder folder;
+  save_bytes(folder / "a", bytes_of("old"), false);
+  const uid_t owner = getuid() == 0 ? 4321 : getuid();  // only root can give files away
+  ASSERT_EQ(chown((folder / "a").c_str(), owner, static_cast<gid_t>(-1)), 0);
+  save_bytes(folder / "a", bytes_of("new"), true);
+  struct stat status {};
+  ASSERT_EQ(stat((folder / "a").c_str(), &status), 0);
+  EXPECT_EQ(status.st_uid, owner);
+  EXPECT_EQ(text_of_file(folder / "a"), "new");
+}
+
 TEST(Io, StandardInputAndOutput) {
   const TemporaryFolder folder;
   save_bytes(folder / "a.ply", bytes_of(small), false);
