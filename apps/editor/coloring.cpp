@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "engine/gpu/viridis.h"
+#include "engine/gpu/colormap.h"
 
 namespace sinew::editor {
 
@@ -66,7 +66,8 @@ void color_by_numbers(const Attribute& attribute, Coloring& out) {
   const double range = out.high - out.low;
   for (std::size_t i = 0; i < out.colors.size(); ++i) {
     const double value = attribute.number(i, 0);
-    if (std::isfinite(value)) out.colors[i] = gpu::viridis(range > 0 ? (value - out.low) / range : 0.5);
+    if (std::isfinite(value))
+      out.colors[i] = gpu::color_at(gpu::Colormap::Viridis, range > 0 ? (value - out.low) / range : 0.5);
   }
 }
 

@@ -1,30 +1,13 @@
 #include "apps/editor/figures.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "apps/editor/marks.h"
+#include "engine/document/field.h"
 #include "engine/geometry/bounds.h"
 
 namespace sinew::editor {
-
-namespace {
-
-/// Of the singular values of M the one farthest from 1, less 1.
-double stretch_of(const Mat3& M) {
-  if (M == Mat3::Identity()) return 0;
-  Eigen::SelfAdjointEigenSolver<Mat3> solver;
-  solver.computeDirect(M.transpose() * M, Eigen::EigenvaluesOnly);
-  double out = 0;
-  for (int k = 0; k < 3; ++k) {
-    const double change = std::sqrt(std::max(0.0, solver.eigenvalues()[k])) - 1;
-    if (std::abs(change) > std::abs(out)) out = change;
-  }
-  return out;
-}
-
-}  // namespace
 
 std::size_t sample_stride(std::size_t points) {
   return std::max<std::size_t>(1, (points + 4095) / 4096);
@@ -49,7 +32,7 @@ StatusFigures figures_of(const Shape& input, std::span<const document::LayerResu
     ++looked_at;
     if (!rest.allFinite()) continue;
     Vec3 position;
-    const double stretch = stretch_of(bent_matrix(layers, rest, i, position));
+    const double stretch = document::stretch_of(bent_matrix(layers, rest, i, position));
     if (std::abs(stretch) > std::abs(out.max_stretch)) out.max_stretch = stretch;
     out.moved += (position - rest).norm() > least;
   }

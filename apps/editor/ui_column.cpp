@@ -12,7 +12,7 @@
 #include "apps/editor/ui.h"
 #include "apps/editor/widgets.h"
 #include "engine/document/settings.h"
-#include "engine/gpu/viridis.h"
+#include "engine/gpu/colormap.h"
 
 namespace sinew::editor {
 
@@ -294,7 +294,7 @@ void show_legend(const Coloring& coloring) {
   constexpr int steps = 32;
   for (int i = 0; i < steps; ++i) {
     const auto color = [&](int step) {
-      const gpu::PointColor c = gpu::viridis(static_cast<double>(step) / steps);
+      const gpu::PointColor c = gpu::color_at(gpu::Colormap::Viridis, static_cast<double>(step) / steps);
       return IM_COL32(c.r, c.g, c.b, 255);
     };
     const float x0 = at.x + std::round(width * static_cast<float>(i) / steps);

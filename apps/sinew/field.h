@@ -1,28 +1,34 @@
 #pragma once
-/// Field: a number of each point, to be shown as its colour.
+/// Field: a number of each point, and the colours that show it.
 
+#include <optional>
 #include <string>
-#include <vector>
 
 #include "engine/document/evaluate.h"
-#include "engine/gpu/points.h"
+#include "engine/document/field.h"
+#include "engine/gpu/colormap.h"
 
 namespace sinew::app {
 
-struct Field {
-  std::string name;
-  std::vector<double> values;  ///< n; what is not finite is shown grey
-  double high = 0;  ///< the brightest colour stands for this and more (99 % of the values are below); 0 is the darkest
-  double most = 0;  ///< the largest finite value
+/// What --color, --colormap and --range ask for.
+struct FieldOptions {
+  std::string name;  ///< of an attribute or of document::field_names but the influence; empty: none
+  gpu::Colormap map = gpu::Colormap::Viridis;
+  std::optional<document::ValueRange> range;  ///< nothing: the usual one
 };
 
-/// How much energy the graph spends near each point: that of its maps, blended by its weights, summed over layers; in
-/// normalised coordinates (Deformer::map_energy).
-Field energy_field(const document::Evaluation& evaluation);
+struct Field {
+  document::Field field;
+  document::ValueRange range;  ///< that the ends of the colours stand for
+  gpu::Colormap map = gpu::Colormap::Viridis;
+  double most = 0;  ///< the finite value that is farthest from 0
+};
 
-/// How far each point went, in the file's unit.
-Field displacement_field(const Shape& rest, const Shape& bent);
+/// An attribute of `shape` is preferred. `evaluation` may be null. Throws UsageError where there is no such thing.
+Field field_of(const FieldOptions& options, const Shape& rest, const Shape& shape,
+               const document::Evaluation* evaluation);
 
+/// Grey for what is not finite.
 gpu::PointColor color_of(const Field& field, double value);
 
 }  // namespace sinew::app

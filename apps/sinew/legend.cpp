@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cmath>
 
 namespace sinew::app {
 
@@ -14,6 +16,7 @@ struct Glyph {
   char letter;
   std::array<std::uint8_t, 7> rows;
 };
+constexpr char degree = '\x7f';  ///< stands for the sign, which is two bytes in UTF-8
 constexpr Glyph glyphs[] = {
     // clang-format off
     {'0', {0x0e, 0x11, 0x13, 0x15, 0x19, 0x11, 0x0e}},
@@ -43,6 +46,21 @@ constexpr Glyph glyphs[] = {
     {'s', {0x00, 0x00, 0x0f, 0x10, 0x0e, 0x01, 0x1e}},
     {'t', {0x08, 0x08, 0x1c, 0x08, 0x08, 0x09, 0x06}},
     {'y', {0x00, 0x00, 0x11, 0x11, 0x0f, 0x01, 0x0e}},
+    {'b', {0x10, 0x10, 0x16, 0x19, 0x11, 0x11, 0x1e}},
+    {'f', {0x06, 0x09, 0x08, 0x1c, 0x08, 0x08, 0x08}},
+    {'h', {0x10, 0x10, 0x16, 0x19, 0x11, 0x11, 0x11}},
+    {'j', {0x02, 0x00, 0x06, 0x02, 0x02, 0x12, 0x0c}},
+    {'k', {0x10, 0x10, 0x12, 0x14, 0x18, 0x14, 0x12}},
+    {'o', {0x00, 0x00, 0x0e, 0x11, 0x11, 0x11, 0x0e}},
+    {'q', {0x00, 0x00, 0x0d, 0x13, 0x0f, 0x01, 0x01}},
+    {'u', {0x00, 0x00, 0x11, 0x11, 0x11, 0x13, 0x0d}},
+    {'v', {0x00, 0x00, 0x11, 0x11, 0x11, 0x0a, 0x04}},
+    {'w', {0x00, 0x00, 0x11, 0x11, 0x15, 0x15, 0x0a}},
+    {'x', {0x00, 0x00, 0x11, 0x0a, 0x04, 0x0a, 0x11}},
+    {'z', {0x00, 0x00, 0x1f, 0x02, 0x04, 0x08, 0x1f}},
+    {'_', {0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x1f}},
+    {'%', {0x18, 0x19, 0x02, 0x04, 0x08, 0x13, 0x03}},
+    {degree, {0x0c, 0x12, 0x12, 0x0c, 0x00, 0x00, 0x00}},
     // clang-format on
 };
 constexpr int advance = 6, line_height = 7;
@@ -78,6 +96,12 @@ struct Canvas {
   }
 };
 
+/// Two figures, of what has three before the point all of them.
+std::string number(double value) {
+  const double size = std::abs(value);
+  return size >= 99.5 && size < 99999 ? fmt::format("{:.0f}", value) : fmt::format("{:.2g}", value);
+}
+
 }  // namespace
 
 void draw_legend(gpu::Picture& picture, const Field& field) {
@@ -85,12 +109,18 @@ void draw_legend(gpu::Picture& picture, const Field& field) {
   const Canvas canvas{picture, std::max(1, picture.height / 400)};
   const int bottom = picture.height / canvas.scale - margin;
   if (picture.width / canvas.scale < width + 2 * margin || bottom < 3 * line_height + height) return;
-  const std::string high = fmt::format("{:.2g}", field.high);
+  const std::string unit = field.field.unit == "°" ? std::string(1, degree) : field.field.unit;
+  const std::string low = number(field.range.low), high = number(field.range.high) + unit;
+  std::string title = field.field.name;
+  for (char& c : title) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   const int numbers = bottom - line_height, bar = numbers - 2 - height, name = bar - 3 - line_height;
-  canvas.text(margin, name, field.name);
-  for (int x = 0; x < width; ++x)
-    for (int y = 0; y < height; ++y) canvas.square(margin + x, bar + y, color_of(field, field.high * x / (width - 1)));
-  canvas.text(margin, numbers, "0");
+  canvas.text(margin, name, title);
+  for (int x = 0; x < width; ++x) {
+    const double part = static_cast<double>(x) / (width - 1);
+    const gpu::PointColor color = gpu::color_at(field.map, part);
+    for (int y = 0; y < height; ++y) canvas.square(margin + x, bar + y, color);
+  }
+  canvas.text(margin, numbers, low);
   canvas.text(margin + width + 1 - advance * static_cast<int>(high.size()), numbers, high);
 }
 

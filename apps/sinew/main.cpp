@@ -55,7 +55,9 @@ constexpr Command commands[] = {
     {"render", "Draws a picture of a file, or of what an edit makes of it, without a display",
      "  sinew render scan.ply -o scan.png\n"
      "  sinew render plane.obj -o after.png --edit lift.json --show handles,fixed,ground --view iso --size 1600x900\n"
-     "  sinew render scan.ply -o above.png --view 0,5,0,0,0,0",
+     "  sinew render scan.ply -o above.png --view 0,5,0,0,0,0\n"
+     "  sinew render plane.obj -o stretch.png --edit lift.json --color stretch --colormap cool-warm\n"
+     "  sinew render scan.ply -o turn.####.png --turntable 60",
      declare_render},
     {"formats", "Lists the formats that are read and written", "  sinew formats", declare_formats},
     {"methods", "Lists the methods of an edit and their settings", "  sinew methods\n  sinew methods --json",

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -17,6 +18,8 @@
 #include "engine/geometry/error.h"
 #include "engine/gpu/offscreen.h"
 #include "engine/gpu/png.h"
+#include "engine/io/frame_pattern.h"
+#include "engine/io/io.h"
 #include "engine/io/text.h"
 
 namespace sinew::app {
@@ -24,7 +27,8 @@ namespace sinew::app {
 namespace {
 
 struct Options {
-  std::string input, from, png, edit, frame, size = "1280x720", view = "iso", show, up = "y", point_size, cut;
+  std::string input, from, png, edit, frame, size = "1280x720", view = "iso", show, up = "y", point_size, cut,
+                                             turntable, color, colormap, range;
   bool force = false;
 };
 
@@ -79,9 +83,36 @@ std::set<std::string> shown(const std::string& text) {
   return out;
 }
 
-void check_fields(const std::set<std::string>& show, bool has_edit) {
+/// --color, --colormap and --range; `show` may name a field as well.
+FieldOptions field_of(const Options& options, const std::set<std::string>& show) {
+  FieldOptions out;
+  out.name = options.color;
+  for (const char* name : {"energy", "displacement"})
+    if (show.contains(name)) out.name = name;
+  const std::optional<gpu::Colormap> map =
+      options.colormap.empty() ? gpu::Colormap::Viridis : gpu::colormap_named(options.colormap);
+  if (!map)
+    throw UsageError("--colormap: expected viridis, turbo or cool-warm, found " + sinew::quoted(options.colormap));
+  out.map = *map;
+  if (out.name.empty() && !(options.colormap.empty() && options.range.empty()))
+    throw UsageError("--colormap and --range: expected --color with them, found none");
+  if (options.range.empty()) return out;
+  document::ValueRange range;
+  const std::size_t comma = std::min(options.range.find(','), options.range.size());
+  if (comma == options.range.size() || !io::parse(options.range.substr(0, comma), range.low) ||
+      !io::parse(options.range.substr(comma + 1), range.high) || !(range.low < range.high) ||
+      !std::isfinite(range.low) || !std::isfinite(range.high))
+    throw UsageError("--range: expected two numbers, the lower first, such as 0,0.5, found " +
+                     sinew::quoted(options.range));
+  out.range = range;
+  return out;
+}
+
+void check_fields(const Options& options, const std::set<std::string>& show, bool has_edit) {
   const bool energy = show.contains("energy"), displacement = show.contains("displacement");
   if (energy && displacement) throw UsageError("--show: expected energy or displacement, found both");
+  if ((energy || displacement) && !options.color.empty())
+    throw UsageError(fmt::format("--color {}: expected no other colours (--show), found some", options.color));
   if ((energy || displacement) && !has_edit)
     throw UsageError(
         fmt::format("--show {}: expected an edit (--edit), found none", energy ? "energy" : "displacement"));
@@ -109,8 +140,28 @@ int frame_of(const Options& options, const Sequence& sequence) {
   return static_cast<int>(frame);
 }
 
-gpu::Picture draw(const Shape& input, const document::Evaluation* evaluation, const View& view,
-                  const std::set<std::string>& show) {
+/// The names of the pictures, in order: one, or of a turntable those of a numbered run.
+std::vector<std::string> names_of(const Options& options, View& view) {
+  if (!options.png.ends_with(".png")) throw UsageError(options.png + ": expected a name that ends in .png");
+  const std::optional<io::FramePattern> pattern = io::frame_pattern(options.png);
+  if (options.turntable.empty()) {
+    if (pattern) throw UsageError(options.png + ": expected --turntable with the name of a run, found none");
+    return {options.png};
+  }
+  std::int64_t count = 0;
+  if (!io::parse(options.turntable, count) || count < 2 || count > 10'000)
+    throw UsageError("--turntable: expected a number of pictures from 2 to 10000, found " +
+                     sinew::quoted(options.turntable));
+  if (!pattern || !pattern->frames.empty())
+    throw UsageError(options.png + ": expected the name of a run, such as turn.####.png, with --turntable");
+  view.turntable = static_cast<int>(count);
+  std::vector<std::string> out;
+  for (int i = 1; i <= view.turntable; ++i) out.push_back(pattern->path(i));
+  return out;
+}
+
+void draw(const Shape& input, const document::Evaluation* evaluation, const View& view,
+          const std::set<std::string>& show, std::span<const std::string> names) {
   const std::unique_ptr<gpu::Device> device = gpu::create_device({});
   const gpu::Paths paths = gpu::measure_paths(*device);
   const gpu::RendererHandle renderer = gpu::create_renderer(*device, paths, gpu::offscreen_format);
@@ -118,21 +169,27 @@ gpu::Picture draw(const Shape& input, const document::Evaluation* evaluation, co
       gpu::create_offscreen(*device, {static_cast<std::uint32_t>(view.width), static_cast<std::uint32_t>(view.height)});
   DrawnShape drawn;
   fill_scene(*device, input, evaluation, view, show, drawn);
-  gpu::Picture picture = gpu::render_picture(*device, *renderer, offscreen, drawn.scene);
-  if (drawn.field) {
-    draw_legend(picture, *drawn.field);
-    message(fmt::format("{}: colours from 0 to {:.4g}; the most is {:.4g}", drawn.field->name, drawn.field->high,
-                        drawn.field->most));
+  if (drawn.field)
+    message(fmt::format("{}: colours from {:.4g} to {:.4g}{}; the most is {:.4g}", drawn.field->field.name,
+                        drawn.field->range.low, drawn.field->range.high, drawn.field->field.unit, drawn.field->most));
+  Progress progress("drawing");
+  const Writing writing;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (!progress(static_cast<double>(i) / static_cast<double>(names.size()))) throw io::Cancelled{};
+    drawn.scene.camera = drawn.cameras[i];
+    gpu::Picture picture = gpu::render_picture(*device, *renderer, offscreen, drawn.scene);
+    if (drawn.field) draw_legend(picture, *drawn.field);
+    gpu::write_png(names[i], picture);
   }
-  return picture;
 }
 
 int run(const Options& options) {
   View view = view_of(options);
   const std::set<std::string> show = shown(options.show);
-  check_fields(show, !options.edit.empty());
-  if (!options.png.ends_with(".png")) throw UsageError(options.png + ": expected a name that ends in .png");
-  check_output_text(options.png, options.force);
+  check_fields(options, show, !options.edit.empty());
+  view.color = field_of(options, show);
+  const std::vector<std::string> names = names_of(options, view);
+  for (const std::string& name : names) check_output_text(name, options.force);
   document::Project project;
   if (!options.edit.empty()) {
     project = document::read_edit(options.edit);
@@ -155,9 +212,7 @@ int run(const Options& options) {
     };
     evaluation = document::evaluate(workspace, project.layers, frame, evaluating);
   }
-  const gpu::Picture picture = draw(*input, evaluation ? &*evaluation : nullptr, view, show);
-  const Writing writing;
-  gpu::write_png(options.png, picture);
+  draw(*input, evaluation ? &*evaluation : nullptr, view, show, names);
   return Ok;
 }
 
@@ -166,7 +221,7 @@ int run(const Options& options) {
 std::function<int()> declare_render(Arguments& arguments) {
   const auto options = std::make_shared<Options>();
   arguments.positional("INPUT", options->input, "File to draw, or frames: name.####.obj; - with --from");
-  arguments.option("-o,--output", "PNG", options->png, "Picture to write", true);
+  arguments.option("-o,--output", "PNG", options->png, "Picture to write, or name.####.png with --turntable", true);
   arguments.option("-e,--edit", "EDIT.json", options->edit, "Draw the shape bent by this edit");
   arguments.option("--frame", "N", options->frame,
                    "Of frames (name.####.obj, name.pc2), keys or a motion; the first without");
@@ -178,6 +233,12 @@ std::function<int()> declare_render(Arguments& arguments) {
       "Some of graph, tets (in place of the shape), handles, markers (of a motion), fixed, rigid, stiffness, rest (the "
       "shape before, "
       "faintly), ground, points (in place of splats or faces), energy or displacement (as colours); with commas");
+  arguments.option("--color", "NAME", options->color,
+                   "Numbers to show as colours: an attribute, or of an edit displacement, stretch, rotation or energy");
+  arguments.option("--colormap", "MAP", options->colormap, "viridis (without), turbo or cool-warm, whose middle is 0");
+  arguments.option("--range", "LOW,HIGH", options->range,
+                   "Numbers at the ends of the colours; without, the 1st and the 99th percentile, or 0 and the latter");
+  arguments.option("--turntable", "N", options->turntable, "N pictures once around the shape: name.0001.png ...");
   arguments.option("--cut", "AXIS=PART", options->cut,
                    "Of the tets only this part of their extent along an axis: z=0.5");
   arguments.option("--up", "AXIS", options->up, "y (without) or z: what is up in the picture");

@@ -59,12 +59,14 @@ bool parse_eye(const std::string& text, const Vec3& origin, gpu::Camera& camera)
   return camera.distance() > 0;
 }
 
+constexpr double frame_fill = 0.9;  ///< of the picture, where a named view frames the shape
+
 gpu::Camera camera_of(const View& view, const Bounds& bounds, const Vec3& origin) {
   gpu::Camera camera;
   const gpu::UpAxis up = view.z_up ? gpu::UpAxis::Z : gpu::UpAxis::Y;
   camera.up = gpu::up_vector(up);
   if (gpu::look_from(camera, view.name, up)) {
-    gpu::frame_bounds(camera, bounds, static_cast<double>(view.width) / view.height, 0.9);
+    gpu::frame_bounds(camera, bounds, static_cast<double>(view.width) / view.height, frame_fill);
     return camera;
   }
   if (!parse_eye(view.name, origin, camera))
@@ -191,7 +193,7 @@ void add_solids(const gpu::Device& device, const document::Evaluation& evaluatio
 /// What `show` asks to see of the edit's layers: marks on points, balls, structures.
 void add_layers(const document::Evaluation& evaluation, const std::set<std::string>& show,
                 std::vector<gpu::PointColor>& colors, DrawnShape& out) {
-  const Field* energy = show.contains("energy") ? &*out.field : nullptr;
+  const Field* energy = out.field && out.field->field.name == "energy" ? &*out.field : nullptr;
   for (std::size_t i = 0; i < evaluation.layers.size(); ++i) {
     const document::LayerResult& layer = evaluation.layers[i];
     if (show.contains("fixed") && layer.of_frame) mark(colors, layer.constraints.fixed, gpu::shared::mark_fixed);
@@ -234,18 +236,25 @@ void fill_scene(const gpu::Device& device, const Shape& input, const document::E
       if (layer.markers != nullptr) add_motion(layer.markers->picture(view.frame, shape.origin), bounds, out.scene);
   out.scene.up = view.z_up ? gpu::UpAxis::Z : gpu::UpAxis::Y;
   out.scene.camera = camera_of(view, bounds, shape.origin);
+  if (view.turntable > 0) {
+    gpu::Camera named;
+    const double fill = gpu::look_from(named, view.name, out.scene.up) ? frame_fill : 0;
+    out.cameras = gpu::cameras_around(out.scene.camera, out.scene.up, view.turntable, 360, bounds,
+                                      static_cast<double>(view.width) / view.height, fill);
+  } else {
+    out.cameras = {out.scene.camera};
+  }
   out.scene.ground = gpu::ground_below(bounds, out.scene.up);
   out.scene.ground.show = show.contains("ground");
 
   std::vector<gpu::PointColor> colors = colors_of(shape);
   if (splats) color_by_splats(out.splats, out.scene.camera, colors);
-  if (evaluation != nullptr) {
-    if (show.contains("energy")) out.field = energy_field(*evaluation);
-    if (show.contains("displacement")) out.field = displacement_field(input, shape);
-    if (out.field)
-      for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = color_of(*out.field, out.field->values[i]);
-    add_layers(*evaluation, show, colors, out);
+  if (!view.color.name.empty()) {
+    out.field = field_of(view.color, input, shape, evaluation);
+    for (std::size_t i = 0; i < colors.size(); ++i)
+      colors[i] = color_of(*out.field, static_cast<double>(out.field->field.values[i]));
   }
+  if (evaluation != nullptr) add_layers(*evaluation, show, colors, out);
   const bool tets = evaluation != nullptr && show.contains("tets");
   const double size = size_of_points(view, shape.size());
   const auto add = [&](gpu::Points& points, const Shape& of, bool ghost) {

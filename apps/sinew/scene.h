@@ -27,6 +27,8 @@ struct View {
   double point_size = 0;                ///< pixels; 0: from the number of points
   std::optional<gpu::Section> section;  ///< of the tets
   int frame = 1;                        ///< whose markers are drawn
+  int turntable = 0;                    ///< so many pictures once around the shape; 0: one from where the view is
+  FieldOptions color;                   ///< whose numbers are shown as colours
 };
 
 /// Keeps the buffers that `scene` points to.
@@ -35,11 +37,12 @@ struct DrawnShape {
   gpu::Triangles triangles;
   gpu::Splats splats;
   std::vector<gpu::SolidItem> solids;
-  std::optional<Field> field;  ///< that the colours show
+  std::optional<Field> field;        ///< that the colours show
+  std::vector<gpu::Camera> cameras;  ///< of View::turntable, in order; or the scene's alone
   gpu::Scene scene;
 };
 
-/// `evaluation` may be null: then the shape as it is, and `show` has no field and no tets. Tets are drawn in place of
+/// `evaluation` may be null: then the shape as it is, and `show` has no tets. Tets are drawn in place of
 /// the shape. A shape without faces that holds splats is drawn as such, unless `show` has "points", and framed without
 /// the few that are far from the others. Throws InputError where the view is none.
 void fill_scene(const gpu::Device& device, const Shape& input, const document::Evaluation* evaluation, const View& view,

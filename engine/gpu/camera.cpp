@@ -90,6 +90,30 @@ void frame_bounds(Camera& camera, const Bounds& bounds, double aspect, double fi
   fit_depth(camera, box);
 }
 
+std::vector<Camera> cameras_around(const Camera& camera, UpAxis axis, int count, double degrees, const Bounds& bounds,
+                                   double aspect, double fill) {
+  const bool whole = std::abs(std::remainder(degrees, 360)) < 1e-9;
+  const double step = degrees / std::max(1, whole ? count : count - 1) * (std::numbers::pi / 180);
+  std::vector<Camera> out;
+  double distance = camera.distance();
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Matrix3d R = Eigen::AngleAxisd(i * step, up_vector(axis)).toRotationMatrix();
+    Camera turned = camera;
+    turned.eye = camera.target + R * (camera.eye - camera.target);
+    turned.up = R * camera.up;
+    if (fill > 0) {
+      frame_bounds(turned, bounds, aspect, fill);
+      distance = i == 0 ? turned.distance() : std::max(distance, turned.distance());
+    }
+    out.push_back(turned);
+  }
+  for (Camera& turned : out) {
+    turned.eye = turned.target + (turned.eye - turned.target).normalized() * distance;
+    fit_depth(turned, bounds);
+  }
+  return out;
+}
+
 bool look_from(Camera& camera, const std::string& name, UpAxis axis) {
   struct Row {
     const char* name;

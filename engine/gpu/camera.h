@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <string>
+#include <vector>
 
 #include "engine/geometry/bounds.h"
 
@@ -39,6 +40,12 @@ void frame_bounds(Camera& camera, const Bounds& bounds, double aspect, double fi
 /// "front", "back", "left", "right", "top", "bottom" or "iso": `camera` turned so about its target; false where the
 /// name is none of these.
 bool look_from(Camera& camera, const std::string& name, UpAxis axis);
+
+/// `count` cameras once around the target of this one, by `degrees` in all, the first as it is: of a turntable, which
+/// turns to the left. Full turns end a step before where they began. They are as far from the target as the farthest
+/// that frames `bounds` in `fill` of the picture; with `fill` 0 as far as this one.
+std::vector<Camera> cameras_around(const Camera& camera, UpAxis axis, int count, double degrees, const Bounds& bounds,
+                                   double aspect, double fill);
 
 /// The point that is seen at picture position (x, y), in pixels of a size, at a depth of the picture (0 < depth).
 Eigen::Vector3d unproject(const Camera& camera, Eigen::Vector2d size, Eigen::Vector2d at, double depth);

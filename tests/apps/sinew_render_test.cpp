@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <set>
 
 #include "engine/gpu/camera.h"
@@ -277,6 +278,78 @@ TEST(SinewRender, FieldsNeedAnEditAndOneOfThemIsEnough) {
                                   "--show", "energy,displacement"});
   EXPECT_EQ(both.status, 2);
   EXPECT_EQ(both.err, "sinew: --show: expected energy or displacement, found both\n");
+}
+
+TEST(SinewRender, NumbersAreColoursByAnyMapInAnyRange) {
+  const TemporaryFolder folder;
+  save(folder / "scan.ply", sheet_ply());
+  save(folder / "edit.json", turn_edit());
+  const auto draw = [&](std::vector<std::string> more, std::string* err = nullptr) {
+    std::vector<std::string> arguments{folder / "scan.ply", "--edit", folder / "edit.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return drawn(folder, arguments, err);
+  };
+  std::string err;
+  const gpu::Picture displacement = draw({"--color", "displacement"});
+  EXPECT_EQ(displacement.rgba, draw({"--show", "displacement"}).rgba) << "another name for the same";
+  draw({"--color", "stretch"}, &err);
+  EXPECT_NE(err.find("sinew: stretch: colours from -"), std::string::npos) << err;
+  EXPECT_NE(err.find(" %; the most is "), std::string::npos) << err;
+  draw({"--color", "rotation", "--colormap", "turbo"}, &err);
+  EXPECT_NE(err.find("sinew: rotation: colours from 0 to "), std::string::npos) << err;
+  EXPECT_NE(err.find("°"), std::string::npos) << err;
+  EXPECT_NE(draw({"--color", "displacement", "--colormap", "turbo"}).rgba, displacement.rgba);
+  draw({"--color", "displacement", "--range", "-1,7.5"}, &err);
+  EXPECT_NE(err.find("displacement: colours from -1 to 7.5;"), std::string::npos) << err;
+  // All of it is far below such a range: the sheet has the colour of its low end, dark violet.
+  const gpu::Picture low = draw({"--color", "displacement", "--range", "1000,2000"});
+  int yellow = 0;
+  for (int y = 0; y < 150; ++y)
+    for (int x = 0; x < 320; ++x) yellow += low.at(x, y)[1] > low.at(x, y)[2] + 60;
+  EXPECT_EQ(yellow, 0);
+
+  const auto refused = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"render", folder / "scan.ply", "-o", folder / "x.png"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_sinew(arguments);
+    EXPECT_EQ(outcome.status, 2);
+    return outcome.err;
+  };
+  EXPECT_EQ(refused({"--color", "stretch"}), "sinew: --color stretch: expected an edit (--edit), found none\n");
+  EXPECT_EQ(refused({"--color", "nonsense"}).find("sinew: --color: expected one of displacement, stretch"), 0U);
+  EXPECT_EQ(refused({"--color", "stretch", "--colormap", "jet"}),
+            "sinew: --colormap: expected viridis, turbo or cool-warm, found \"jet\"\n");
+  for (const std::string range : {"1", "2,1", "a,b", "0,inf", ","})
+    EXPECT_EQ(refused({"--color", "stretch", "--range", range}),
+              "sinew: --range: expected two numbers, the lower first, such as 0,0.5, found \"" + range + "\"\n");
+}
+
+TEST(SinewRender, ATurntableGoesOnceAround) {
+  const TemporaryFolder folder;
+  save(folder / "scan.ply", sheet_ply());
+  const std::vector<std::string> base{"render", folder / "scan.ply",     "--size", "160x100",
+                                      "-o",     folder / "turn.####.png"};
+  const auto with = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments = base;
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_sinew(arguments);
+  };
+  const Outcome outcome = with({"--turntable", "4", "--view", "front"});
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  std::vector<gpu::Picture> pictures;
+  for (int i = 1; i <= 4; ++i) pictures.push_back(gpu::read_png(folder / ("turn.000" + std::to_string(i) + ".png")));
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_NE(pictures[i].rgba, pictures[0].rgba) << i;
+  EXPECT_FALSE(std::filesystem::exists(folder / "turn.0005.png")) << "the first again";
+  // A sheet seen from the side is narrow, from the back as wide as from the front.
+  EXPECT_LT(covered(pictures[1]), 0.5 * covered(pictures[0]));
+  EXPECT_NEAR(covered(pictures[2]), covered(pictures[0]), 0.15 * covered(pictures[0]));
+
+  EXPECT_EQ(with({"--turntable", "4"}).status, 1) << "the pictures exist";
+  EXPECT_EQ(with({}).status, 2);
+  EXPECT_EQ(with({"--turntable", "1", "--force"}).status, 2);
+  const Outcome one = run_sinew({"render", folder / "scan.ply", "-o", folder / "x.png", "--turntable", "4"});
+  EXPECT_EQ(one.err,
+            "sinew: " + (folder / "x.png") + ": expected the name of a run, such as turn.####.png, with --turntable\n");
 }
 
 }  // namespace sinew
