@@ -30,16 +30,18 @@ set_target_properties(sinew-tets PROPERTIES ENABLE_EXPORTS ON)
 add_dependencies(sinew_deformers sinew-tets)  # which starts it
 
 # The editor without its window: everything that can be tested without a display.
-set(SINEW_EDITOR_CORE background commands figures keys lod manipulation marks navigation point_set preferences recovery repeatable
-                      session session_drag session_edit session_examples session_files session_journal session_motion session_time tools view)
+set(SINEW_EDITOR_CORE background coloring command_line commands export_notes figures keys legend lod manipulation marks
+                      navigation normals onion point_set portal portraits preferences recovery repeatable session session_drag
+                      session_edit session_examples session_files session_journal session_motion session_time tools view)
 list(TRANSFORM SINEW_EDITOR_CORE PREPEND ${CMAKE_SOURCE_DIR}/apps/editor/)
 list(TRANSFORM SINEW_EDITOR_CORE APPEND .cpp)
 add_library(sinew_editor_core STATIC ${SINEW_EDITOR_CORE})
-target_link_libraries(sinew_editor_core PUBLIC sinew_document sinew_deformers sinew_gpu PRIVATE fmt::fmt)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(SYSTEMD REQUIRED IMPORTED_TARGET libsystemd)  # sd-bus, for the desktop's file dialog
+target_link_libraries(sinew_editor_core PUBLIC sinew_document sinew_deformers sinew_gpu PRIVATE fmt::fmt PkgConfig::SYSTEMD)
 
 # sinew-editor, the window: the rest of apps/editor.
 if(SINEW_EDITOR AND EXISTS ${CMAKE_SOURCE_DIR}/apps/editor/main.cpp)
-  find_package(PkgConfig REQUIRED)
   find_package(glfw3 3.3 REQUIRED CONFIG)
   pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
   file(GLOB SINEW_EDITOR_SOURCES CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/apps/editor/*.cpp)

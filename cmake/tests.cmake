@@ -28,8 +28,8 @@ sinew_tests(test_deformers tests/deformers/*.cpp sinew_deformers sinew_io sinew_
 # What the benchmarks compare with is tested where the methods are.
 target_sources(test_deformers PRIVATE ${CMAKE_SOURCE_DIR}/tests/benchmarks/mesh_ik.cpp)
 sinew_tests(test_samples tests/apps/samples*_test.cpp sinew_samples sinew_document)
-sinew_tests(test_editor_core tests/apps/editor_core*_test.cpp sinew_editor_core sinew_samples)
-add_dependencies(test_editor_core sinew-tets)
+sinew_tests(test_editor_core tests/apps/editor_core*_test.cpp sinew_editor_core sinew_samples PkgConfig::SYSTEMD)
+add_dependencies(test_editor_core sinew sinew-tets)
 sinew_tests(test_sinew tests/apps/sinew_*test.cpp sinew_document sinew_deformers sinew_gpu sinew_samples)
 add_dependencies(test_sinew sinew sinew-tets)
 # What pictures show beside ours.
@@ -57,6 +57,8 @@ if(SINEW_EDITOR)
   add_test(NAME editor_recover
            COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_recover_test.sh $<TARGET_FILE_DIR:sinew-editor> recover)
   set_tests_properties(editor_recover PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)
+  add_test(NAME editor_see COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_see_test.sh $<TARGET_FILE_DIR:sinew-editor> see)
+  set_tests_properties(editor_see PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)
   foreach(what poses horse)
     add_test(NAME editor_${what} COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_poses_test.sh $<TARGET_FILE_DIR:sinew-editor> ${what})
     set_tests_properties(editor_${what} PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)

@@ -24,6 +24,9 @@ bool chosen(const Context& c) {
 bool moving(const Context& c) {
   return c.session.moves();
 }
+bool ranged(const Context& c) {
+  return c.session.moves() && !c.session.plays_all();
+}
 bool keyed_here(const Context& c) {
   if (c.session.layer() == nullptr) return false;
   const auto& keys = c.session.layer()->keys;
@@ -112,6 +115,15 @@ void save(Context& c) {
   else
     c.session.save_edit();
 }
+/// Where the range would be empty, its other end is that of the clip.
+void begin_range(Context& c) {
+  const int end = c.session.play_range().second, here = c.session.wanted_frame();
+  c.session.set_play_range(std::pair(here, here < end ? end : c.session.frames().back()));
+}
+void end_range(Context& c) {
+  const int begin = c.session.play_range().first, here = c.session.wanted_frame();
+  c.session.set_play_range(std::pair(begin < here ? begin : c.session.frames().front(), here));
+}
 void look(Context& c, const char* name) {
   glide_to(c.view, viewed(c.view.camera, name, c.view.up));
 }
@@ -161,6 +173,8 @@ const std::array table{
             [](C& c) { c.request(Request::Export); }},
     Command{"file.screenshot", "Save picture...", "File", "", "Write a picture of the scene to a PNG file.", open,
             [](C& c) { c.request(Request::Screenshot); }},
+    Command{"file.turntable", "Save turntable...", "File", "", "Write pictures from all around as numbered PNG files.",
+            open, [](C& c) { c.request(Request::Turntable); }},
     Command{"file.cancel", "Cancel work", "File", "", "Stop reading, writing or preparing a layer.", working,
             [](C& c) { c.session.cancel_job(); }, nullptr, true},
     Command{"file.preferences", "Preferences...", "File", "Ctrl+,", "Choose navigation, theme and scale.", always,
@@ -172,6 +186,9 @@ const std::array table{
             [](C& c) { c.session.undo(); }},
     Command{"edit.redo", "Redo", "Edit", "Ctrl+Shift+Z, Ctrl+Y", "Do again what was taken back.", can_redo,
             [](C& c) { c.session.redo(); }},
+    Command{"edit.copy_command", "Copy as command line", "Edit", "Ctrl+Shift+C",
+            "Put the sinew command that does the same on the clipboard.", layered,
+            [](C& c) { c.request(Request::CopyCommand); }, nullptr, true},
     Command{"edit.palette", "Find a command...", "Edit", "Ctrl+P", "Search all commands by name.", always,
             [](C& c) { c.request(Request::Palette); }, nullptr, true},
 
@@ -265,6 +282,14 @@ const std::array table{
             [](C& c) { c.session.play(!c.session.playing()); }, [](const C& c) { return c.session.playing(); }},
     Command{"time.loop", "Loop", "Time", "", "Begin again at the end.", moving,
             [](C& c) { c.session.set_looping(!c.session.looping()); }, [](const C& c) { return c.session.looping(); }},
+    Command{"time.range_begin", "Play from here", "Time", "Alt+[", "Begin to play at the frame shown.", moving,
+            begin_range},
+    Command{"time.range_end", "Play up to here", "Time", "Alt+]", "Play no farther than the frame shown.", moving,
+            end_range},
+    Command{"time.range_all", "Play all frames", "Time", "", "Play from the first frame to the last.", ranged,
+            [](C& c) { c.session.set_play_range({}); }},
+    Command{"time.onion", "Onion skin", "Time", "", "Show ghosts of frames before and after, while nothing moves.",
+            moving, [](C& c) { c.view.show_onion = !c.view.show_onion; }, [](const C& c) { return c.view.show_onion; }},
     Command{"time.forward", "Next frame", "Time", "Right", "One frame on.", moving,
             [](C& c) { c.session.step_frame(1); }, nullptr, true},
     Command{"time.back", "Former frame", "Time", "Left", "One frame back.", moving,

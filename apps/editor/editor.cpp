@@ -59,9 +59,13 @@ Editor::Editor(const EditorOptions& options)
       preferences_path_(preferences_path()),
       session_(methods(), Window::wake),
       context_{session_, view_, preferences_, [this](Request request) { answer(request); }},
-      stage_(*device_, paths_),
+      stage_(*device_, paths_, Window::wake),
       mouse_(context_),
-      ui_{context_, stage_, mouse_} {
+      ui_{context_, stage_, mouse_},
+      validation_(options.validation),
+      drawing_(Window::wake),
+      picturing_(Window::wake),
+      portal_(Window::wake) {
   open_later(options.files);
   if (const std::string folder = document::journal_folder(); !folder.empty()) {
     session_.keep_journal(folder);
@@ -76,6 +80,8 @@ Editor::Editor(const EditorOptions& options)
   view_.depth = preferences_.through ? Depth::Through : Depth::VisibleOnly;
   ui_.device = paths_.sentence;
   ui_.sample = options.sample;
+  ui_.cancel_drawing = [this] { drawing_.cancel(); };
+  show_recent_pictures();
   ui_.navigation_choice = !preferences_.asked_navigation;
   if (!options.times.empty()) times_.open(options.times);
   last_step_ = now();
@@ -89,8 +95,8 @@ Editor::~Editor() {
 
 void Editor::run() {
   while (!quit_) {
-    const bool busy =
-        session_.job() || !to_open_.empty() || (session_.solving() && !session_.dragging() && !session_.playing());
+    const bool busy = session_.job() || drawing_.busy() || !to_open_.empty() ||
+                      (session_.solving() && !session_.dragging() && !session_.playing());
     window_.hold_play(busy);
     window_.wait(patience());
     take_events();
@@ -196,6 +202,8 @@ void Editor::take_changes() {
   const Changed changed = session_.poll();
   stage_.note(changed);
   for (std::string& problem : ui_.recovery.poll()) session_.notify(Severity::Warning, std::move(problem));
+  if (stage_.poll()) frames_wanted_ = std::max(frames_wanted_, 1);
+  take_pictures();
   if (changed.marks || changed.input) ui_.marks = count_marks(session_);
   if (changed.input) show_new_input();
   if (changed.any()) frames_wanted_ = std::max(frames_wanted_, 1);
@@ -214,9 +222,13 @@ void Editor::show_new_input() {
   gpu::look_from(view_.camera, "iso", view_.up);
   view_.camera = framed(view_.camera, session_.rest_bounds(), view_.size.x() / view_.size.y());
   view_.color_by.clear();
+  view_.heat.reset();
+  view_.color_range.reset();
+  view_.clicked.reset();
   for (const Attribute& attribute : session_.input()->attributes)
     if (attribute.kind == Kind::Color && view_.color_by.empty()) view_.color_by = attribute.name;
   add_recent(preferences_, std::filesystem::absolute(session_.input_path()).string());
+  wants_picture_ = true;
 }
 
 /// A picture without the shape of the newest mouse event would hold up the one with it by as long as it takes to draw:
@@ -244,7 +256,7 @@ double Editor::patience() const {
   if (acquired_late_ || !detail_.complete()) return 0.02;
   if (ui_.wants_frames) return 0.033;
   if (session_.next_step() >= 0) return session_.next_step();
-  if (session_.job()) return 0.1;
+  if (session_.job() || drawing_.busy()) return 0.1;
   return ui_.next_frame < 1e300 ? std::max(0.0, ui_.next_frame - now()) : -1;
 }
 

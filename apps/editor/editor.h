@@ -11,6 +11,8 @@
 
 #include "apps/editor/gui.h"
 #include "apps/editor/lod.h"
+#include "apps/editor/portal.h"
+#include "apps/editor/portraits.h"
 #include "apps/editor/ui.h"
 #include "engine/gpu/swapchain.h"
 
@@ -47,6 +49,15 @@ class Editor {
   void choose_poses();
   void choose_file_to_save();
   void choose_file_to_export();
+  void choose_name_of_turntable();
+  void ask_for_file(FileRequest request);
+  void take_portal_answer(const FileRequest& request, const PortalAnswer& answer,
+                          const std::vector<std::string>& changes);
+  void save_turntable(const std::string& path);
+  void copy_command();
+  void take_pictures();
+  void show_recent_pictures();
+  void picture_recent();
   void save_screenshot(const std::string& path);
   void draw_screenshot(const std::string& path);
   void quit();
@@ -81,6 +92,11 @@ class Editor {
   Mouse mouse_;
   Ui ui_;
   DetailController detail_;
+  bool validation_ = false;
+  bool copy_when_saved_ = false;      ///< the command line, once its edit is on the disk
+  bool no_portal_ = false;            ///< it was asked, and there is none
+  bool wants_picture_ = false;        ///< of the input, as a recent file
+  std::string turntable_, pictured_;  ///< what is being drawn, and for which file
 
   std::deque<std::vector<std::string>> to_open_;  ///< what was opened together
   bool quit_ = false;
@@ -92,6 +108,7 @@ class Editor {
   double picture_seconds_ = 0;  ///< of the last picture, drawn and shown
 
   std::ofstream times_;
+  Background drawing_, picturing_, portal_;  ///< turntables, small pictures of recent files, the desktop's file dialog
   std::deque<std::pair<std::uint64_t, double>> asked_;  ///< tickets of a drag, and the times of their mouse events
 };
 

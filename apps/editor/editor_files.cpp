@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "apps/editor/editor.h"
+#include "apps/editor/export_notes.h"
 #include "engine/geometry/error.h"
 #include "engine/gpu/offscreen.h"
 #include "engine/gpu/png.h"
@@ -46,17 +47,20 @@ void Editor::answer(Request request) {
     case Request::Export: choose_file_to_export(); break;
     case Request::Screenshot: {
       const std::string path = beside(session_.input_path(), "", ".png");
-      ui_.files.open({.title = "Save a picture of the scene",
-                      .action = "Save",
-                      .save = true,
-                      .extensions = {"png"},
-                      .start = path,
-                      .note = {},
-                      .folder_action = {},
-                      .folder_help = {},
-                      .done = [this](const std::string& chosen) { save_screenshot(chosen); }});
+      ask_for_file({.title = "Save a picture of the scene",
+                    .action = "Save",
+                    .save = true,
+                    .extensions = {"png"},
+                    .start = path,
+                    .note = {},
+                    .folder_action = {},
+                    .folder_help = {},
+                    .done = [this](const std::string& chosen) { save_screenshot(chosen); }});
       break;
     }
+    case Request::Turntable: ui_.turntable = true; break;
+    case Request::TurntableName: choose_name_of_turntable(); break;
+    case Request::CopyCommand: copy_command(); break;
     case Request::Palette: ui_.palette = true; break;
     case Request::Keymap: ui_.keymap = true; break;
     case Request::About: ui_.about = true; break;
@@ -109,54 +113,57 @@ void Editor::unless_unsaved(const std::string& path, std::function<void()> open)
 void Editor::choose_file_to_open() {
   std::string start = session_.input_path();
   if (start.empty() && !preferences_.recent.empty()) start = preferences_.recent.front();
-  ui_.files.open({.title = "Open",
-                  .action = "Open",
-                  .save = false,
-                  .extensions = extensions(false),
-                  .start = start.empty() ? "." : fs::absolute(start).parent_path().string(),
-                  .note = {},
-                  .folder_action = "Open this folder",
-                  .folder_help = "The shapes in it are poses: of the shape that is open, else of the first of them",
-                  .done = [this](const std::string& path) { open_later({path}); }});
+  ask_for_file({.title = "Open",
+                .action = "Open",
+                .save = false,
+                .extensions = extensions(false),
+                .start = start.empty() ? "." : fs::absolute(start).parent_path().string(),
+                .note = {},
+                .folder_action = "Open this folder",
+                .folder_help = "The shapes in it are poses: of the shape that is open, else of the first of them",
+                .done = [this](const std::string& path) { open_later({path}); },
+                .done_several = [this](const std::vector<std::string>& paths) { open_later(paths); }});
 }
 
 void Editor::choose_poses() {
-  ui_.files.open({.title = "Add poses",
-                  .action = "Add pose",
-                  .save = false,
-                  .extensions = extensions(false),
-                  .start = fs::path(session_.input_path()).parent_path().string(),
-                  .note = "Poses have the points and faces of the shape, moved.",
-                  .folder_action = "Add this folder",
-                  .folder_help = "All shapes in it are poses",
-                  .done = [this](const std::string& path) { session_.add_poses(path); }});
+  ask_for_file({.title = "Add poses",
+                .action = "Add pose",
+                .save = false,
+                .extensions = extensions(false),
+                .start = fs::path(session_.input_path()).parent_path().string(),
+                .note = "Poses have the points and faces of the shape, moved.",
+                .folder_action = "Add this folder",
+                .folder_help = "All shapes in it are poses",
+                .done = [this](const std::string& path) { session_.add_poses(path); }});
 }
 
 void Editor::choose_file_to_save() {
   const std::string path =
       session_.edit_path().empty() ? beside(session_.input_path(), ".edit", ".json") : session_.edit_path();
-  ui_.files.open({.title = "Save the edit",
-                  .action = "Save",
-                  .save = true,
-                  .extensions = {"json"},
-                  .start = path,
-                  .note = "A small file with marks and motions; `sinew deform` bends the same shape by it.",
-                  .folder_action = {},
-                  .folder_help = {},
-                  .done = [this](const std::string& chosen) { session_.save_edit(chosen); }});
+  ask_for_file({.title = "Save the edit",
+                .action = "Save",
+                .save = true,
+                .extensions = {"json"},
+                .start = path,
+                .note = "A small file with marks and motions; `sinew deform` bends the same shape by it.",
+                .folder_action = {},
+                .folder_help = {},
+                .done = [this](const std::string& chosen) { session_.save_edit(chosen); }});
 }
 
 void Editor::choose_file_to_export() {
   const std::string extension = fs::path(session_.input_path()).extension().string();
-  ui_.files.open({.title = "Export the bent shape",
-                  .action = "Export",
-                  .save = true,
-                  .extensions = extensions(true),
-                  .start = beside(session_.input_path(), "-bent", extension),
-                  .note = "Positions and normals change; everything else is written as it was read.",
-                  .folder_action = {},
-                  .folder_help = {},
-                  .done = [this](const std::string& chosen) { session_.export_shape(chosen, true); }});
+  ask_for_file({.title = "Export the bent shape",
+                .action = "Export",
+                .save = true,
+                .extensions = extensions(true),
+                .start = beside(session_.input_path(), "-bent", extension),
+                .note = "Positions and normals change; everything else is written as it was read.",
+                .folder_action = {},
+                .folder_help = {},
+                .done = [this](const std::string& chosen) { session_.export_shape(chosen, true); },
+                .changes = [input = session_.input(), sequence = session_.sequence(), frame = session_.frame()](
+                               const std::string& path) { return export_notes(path, *input, *sequence, frame); }});
 }
 
 void Editor::save_screenshot(const std::string& path) {

@@ -78,6 +78,32 @@ constexpr ImWchar text_ranges[] = {0x20,   0x24f,  0x370,  0x3ff,  0x400,  0x52f
                                    0x206f, 0x2070, 0x209f, 0x2190, 0x21ff, 0x2200, 0x22ff, 0};
 constexpr ImWchar icon_ranges[] = {static_cast<ImWchar>(icon::first), static_cast<ImWchar>(icon::last), 0};
 
+/// Room for the pictures in the atlas; the numbers of their places.
+std::vector<int> reserve(std::span<const gpu::Picture> pictures) {
+  std::vector<int> out;
+  for (const gpu::Picture& picture : pictures)
+    out.push_back(ImGui::GetIO().Fonts->AddCustomRectRegular(picture.width, picture.height));
+  return out;
+}
+
+/// Copies them into the built atlas.
+std::vector<Fonts::Place> place(std::span<const gpu::Picture> pictures, std::span<const int> rects) {
+  ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
+  unsigned char* pixels = nullptr;
+  int width = 0, height = 0;
+  atlas.GetTexDataAsRGBA32(&pixels, &width, &height);
+  std::vector<Fonts::Place> out;
+  for (std::size_t i = 0; i < pictures.size(); ++i) {
+    const ImFontAtlasCustomRect& rect = *atlas.GetCustomRectByIndex(rects[i]);
+    for (int y = 0; y < pictures[i].height; ++y)
+      std::copy_n(pictures[i].at(0, y), 4 * pictures[i].width, pixels + 4 * ((rect.Y + y) * width + rect.X));
+    Fonts::Place place;
+    atlas.CalcCustomRectUV(&rect, &place.from, &place.to);
+    out.push_back(place);
+  }
+  return out;
+}
+
 class Loader {
  public:
   explicit Loader(float scale)
@@ -117,7 +143,7 @@ class Loader {
 
 }  // namespace
 
-Fonts load_fonts(float scale) {
+Fonts load_fonts(float scale, std::span<const gpu::Picture> pictures) {
   ImGui::GetIO().Fonts->Clear();
   ImGui::GetIO().Fonts->TexDesiredWidth = scale > 1.6f ? 2048 : 1024;
   Loader loader(scale);
@@ -128,7 +154,9 @@ Fonts load_fonts(float scale) {
   fonts.big = loader.text("Medium", 20, 20);
   fonts.icons = loader.icons(16);
   ImGui::GetIO().FontDefault = fonts.text;
+  const std::vector<int> rects = reserve(pictures);
   ImGui::GetIO().Fonts->Build();
+  fonts.pictures = place(pictures, rects);
   for (ImFont* font : {fonts.text, fonts.bold, fonts.small, fonts.big}) make_figures_tabular(font);
   return fonts;
 }

@@ -106,9 +106,14 @@ void Gui::start_backend() {
 void Gui::use(const Theme& theme, float scale) {
   use_theme(theme, scale);
   if (scale == font_scale_) return;
-  loaded = load_fonts(scale);
+  loaded = load_fonts(scale, pictures_);
   font_scale_ = scale;
   start_backend();
+}
+
+void Gui::show_pictures(std::vector<gpu::Picture> pictures) {
+  pictures_ = std::move(pictures);
+  font_scale_ = 0;
 }
 
 void Gui::feed(const InputEvent& event) {

@@ -25,6 +25,9 @@ class Gui {
   /// Between pictures: colours and measures, and the fonts anew where the scale is another.
   void use(const Theme& theme, float scale);
 
+  /// Pictures for fonts().pictures, from the next use() on.
+  void show_pictures(std::vector<gpu::Picture> pictures);
+
   void feed(const InputEvent& event);
   void begin(VkExtent2D size);  ///< a frame of the interface; end it by ImGui::Render or ImGui::EndFrame
   void draw(VkCommandBuffer commands);
@@ -41,6 +44,7 @@ class Gui {
   gpu::Owned<VkDescriptorPool> pool_;
   bool backend_ = false;
   float font_scale_ = 0;
+  std::vector<gpu::Picture> pictures_;
   double last_frame_ = 0;
   std::string clipboard_;  ///< the text that ImGui was given, alive until it asks again
 };

@@ -201,7 +201,10 @@ void Mouse::click(int modifiers) {
   Session& session = context_.session;
   const SelectMode mode = select_mode(modifiers);
   PointSet touched(session.input()->size());
-  if (const std::optional<Index> point = click_point(screen(), last_, 2 * slack())) touched.add(*point);
+  if (const std::optional<Index> point = click_point(screen(), last_, 2 * slack())) {
+    touched.add(*point);
+    context_.view.clicked = *point;
+  }
   if (!touched.empty() || mode == SelectMode::Replace) session.select(touched, mode);
   if (touched.empty()) session.choose_handle({});
 }

@@ -60,6 +60,7 @@ void fields(A& a, T& file) {
   a.optional("scale", p.scale, scales);
   a.required("point_size", p.point_size, point_sizes);
   a.required("brush_radius", p.brush_radius, brush_radii);
+  a.optional("native_dialogs", p.native_dialogs);
   a.optional("through", p.through);
   a.optional("recent", p.recent);
   if constexpr (A::reading) {

@@ -17,6 +17,7 @@ struct Preferences {
   gpu::UpAxis up = gpu::UpAxis::Y;
   double point_size = 2;            ///< pixels, 1..16
   double brush_radius = 24;         ///< pixels, 2..500
+  bool native_dialogs = true;       ///< the desktop's file dialog where there is one
   bool through = false;             ///< selection reaches what stands behind
   std::vector<std::string> recent;  ///< absolute paths, newest first, at most 12
   bool operator==(const Preferences&) const = default;

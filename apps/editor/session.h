@@ -35,7 +35,8 @@ namespace sinew::editor {
 enum class Severity { Hint, Info, Warning, Error };
 struct Notice {
   Severity severity = Severity::Info;
-  std::string text;  ///< a sentence
+  std::string text;          ///< a sentence
+  std::string command = {};  ///< id of the command that it offers as a button; or empty
 };
 
 /// Long work, to show with its progress and a Cancel.
@@ -143,6 +144,7 @@ class Session {
     return sequence_ ? std::span<const int>(sequence_->frames) : std::span<const int>();
   }
   bool moves() const { return frames().size() > 1; }
+  const std::shared_ptr<const Sequence>& sequence() const { return sequence_; }
   /// Its points come and go: a layer has a path, and selections belong to a frame.
   bool stream() const { return stream_; }
   double rate() const { return sequence_ ? sequence_->rate : 24; }
@@ -157,6 +159,10 @@ class Session {
   bool playing() const { return playing_; }
   bool looping() const { return loop_; }
   void set_looping(bool on) { loop_ = on; }
+  /// The frames that play() plays, first to last; all of them where none were chosen.
+  std::pair<int, int> play_range() const;
+  void set_play_range(std::optional<std::pair<int, int>> range) { range_ = range; }
+  bool plays_all() const { return !range_.has_value(); }
   /// Seconds until poll() wants to be called again to play on; below 0: never.
   double next_step() const;
 
@@ -394,6 +400,7 @@ class Session {
   bool playing_ = false, loop_ = true;
   double play_began_ = 0;      ///< seconds, when play_from_ was shown
   std::size_t play_from_ = 0;  ///< index of a frame
+  std::optional<std::pair<int, int>> range_;
   std::string input_path_, edit_path_;
   Bounds bounds_;
   document::History history_{document::Project{}};

@@ -186,8 +186,10 @@ void Session::show(Opened opened) {
   layer_ = opened.project.layers.empty() ? 0 : opened.project.layers.size() - 1;
   changed_.input = true;
   if (opened.run > 1)
-    notify(Severity::Info, name_of(input_path_) + " is one of " + std::to_string(opened.run) +
-                               " numbered files. \"Open all frames\" in the menu File plays them.");
+    notices_.push_back({Severity::Info,
+                        name_of(input_path_) + " is one of " + std::to_string(opened.run) +
+                            " numbered files: they can be opened as the frames of one motion.",
+                        "file.open_run"});
   for (const std::string& note : opened.notes) notify(Severity::Info, note);
   for (const std::string& note : input_->notes) notify(Severity::Info, name_of(input_path_) + ": " + note);
   project_changed();
@@ -208,6 +210,7 @@ void Session::close() {
   sequence_.reset();
   driven_by_.clear();
   stream_ = playing_ = false;
+  range_.reset();
   selector_.reset();
   neighbourhood_.reset();
   after_neighbourhood_.clear();

@@ -34,9 +34,17 @@ double step_of(double rate) {
 
 }  // namespace
 
+std::pair<int, int> Session::play_range() const {
+  if (!moves()) return {frame_, frame_};
+  const int first = frames().front(), last = frames().back();
+  if (!range_ || range_->first > last || range_->second < first || range_->first >= range_->second)
+    return {first, last};
+  return {std::max(first, range_->first), std::min(last, range_->second)};
+}
+
 void Session::go_to_frame(int frame) {
   if (!moves()) return;
-  cancel_drag();
+  end_drag();  // what was dragged so far is kept
   const int wanted = frames()[nearest_frame(frames(), frame)];
   if (wanted == wanted_frame_) return;
   wanted_frame_ = wanted;
@@ -65,7 +73,7 @@ void Session::step_key(int by) {
 
 void Session::play(bool on) {
   if (on == playing_ || (on && !moves())) return;
-  cancel_drag();
+  end_drag();
   playing_ = on;
   changed_.project = true;
   if (!on) {
@@ -73,7 +81,9 @@ void Session::play(bool on) {
     ask(SolveOptions::Quality::Final, project());
     return;
   }
-  if (wanted_frame_ == frames().back()) go_to_frame(frames().front());  // from the end it begins again
+  // From the end of the range, and from beyond it, it begins again.
+  const auto [first, last] = play_range();
+  if (wanted_frame_ >= last || wanted_frame_ < first) go_to_frame(first);
   play_from_ = nearest_frame(frames(), wanted_frame_);
   play_began_ = seconds_now();
 }
@@ -89,12 +99,13 @@ void Session::advance() {
   if (!playing_ || frame_ != wanted_frame_ || !has_input()) return;
   const double now = seconds_now();
   std::size_t index = play_from_ + static_cast<std::size_t>(std::max(0.0, (now - play_began_) / step_of(rate())));
-  if (index >= frames().size()) {
+  const auto [first, last] = play_range();
+  if (index > nearest_frame(frames(), last)) {
     if (!loop_) {
       play(false);
       return;
     }
-    index = play_from_ = 0;
+    index = play_from_ = nearest_frame(frames(), first);
     play_began_ = now;
   }
   if (frames()[index] == frame_) return;

@@ -2,7 +2,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdlib>
 
+#include "apps/editor/normals.h"
 #include "engine/geometry/skin.h"
 #include "engine/geometry/topology.h"
 #include "engine/gpu/level_of_detail.h"
@@ -10,27 +12,6 @@
 namespace sinew::editor {
 
 namespace {
-
-/// Unit normals of the points: the file's, or of a mesh the mean of its faces' (weighted by area); none for others.
-std::vector<Vec3> normals_of(const Shape& shape, std::span<const std::uint32_t> triangles) {
-  std::vector<Vec3> normals;
-  for (const Attribute& attribute : shape.attributes) {
-    if (attribute.kind != Kind::Normal || attribute.components != 3 || !attribute.per_point()) continue;
-    normals.resize(shape.size());
-    for (std::size_t i = 0; i < shape.size(); ++i)
-      normals[i] = {attribute.number(i, 0), attribute.number(i, 1), attribute.number(i, 2)};
-    return normals;
-  }
-  if (triangles.empty()) return normals;
-  normals.assign(shape.size(), Vec3::Zero());
-  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
-    const Vec3& a = shape.positions[triangles[t]];
-    const Vec3 area = (shape.positions[triangles[t + 1]] - a).cross(shape.positions[triangles[t + 2]] - a);
-    for (std::size_t c = 0; c < 3; ++c) normals[triangles[t + c]] += area;
-  }
-  for (Vec3& normal : normals) normal.normalize();
-  return normals;
-}
 
 /// The chosen layer's answer, where it has a structure; else null.
 const document::LayerResult* structured(const Session& session) {
@@ -62,25 +43,23 @@ void Stage::note(const Changed& changed) {
   pending_.marks |= changed.marks;
 }
 
+bool Stage::poll() {
+  const bool painted = painter_.poll();
+  return onion_.poll() || painted;
+}
+
 void Stage::update(gpu::Frame& frame, Session& session, const View& view) {
   if (pending_.input) {
     points_.reset();
     triangles_ = {};
     splats_.reset();
     weights_ = nullptr;
-    if (session.has_input()) take_input(*session.input(), view);
+    if (session.has_input()) take_input(*session.input());
     pending_.pose = pending_.marks = true;
   }
   if (points_) {
-    const bool strained = view.color_by == energy_choice && (pending_.pose || pending_.weights);
-    if (view.color_by != colored_by_ || strained) {
-      coloring_ = coloring_of(*session.input(), view.color_by);
-      if (view.color_by == energy_choice)
-        for (const document::LayerResult& layer : session.shown())
-          if (layer.layer == session.chosen_layer()) coloring_ = energy_coloring(*session.input(), layer);
-      colored_by_ = view.color_by;
-      pending_.marks = true;
-    }
+    if (painter_.update(session, view)) pending_.marks = true;
+    colored_ = !view.color_by.empty() || view.heat;
     if (pending_.pose || pending_.weights) take_pose(frame, session);
     const bool bend = pending_.pose || pending_.weights || (only_moved_ && !session.dragging());
     if (splats_ && bend) bend_splats(session);
@@ -88,7 +67,22 @@ void Stage::update(gpu::Frame& frame, Session& session, const View& view) {
     if (splats_ && (pending_.marks || (bend && !only_moved_))) color_splats(session);
   }
   take_solid(session, view);
+  take_onion(session, view);
   pending_ = {};
+}
+
+/// Ghosts of other frames, one by one as they are found.
+void Stage::take_onion(Session& session, const View& view) {
+  if (!onion_.update(session, view)) return;
+  ghosts_.clear();
+  for (const OnionSkin::Ghost& found : onion_.ghosts()) {
+    const std::vector<std::uint32_t> triangles = triangles_of(found.shape->faces);
+    Ghost ghost;
+    ghost.away = std::abs(found.away);
+    ghost.points = gpu::create_points(device_, false, found.shape->positions, normals_of(*found.shape, triangles));
+    if (!triangles.empty()) ghost.triangles = gpu::create_triangles(device_, triangles);
+    ghosts_.push_back(std::move(ghost));
+  }
 }
 
 /// Faces are found anew for another structure or cut, and drawn anew where a vertex or its colour changed.
@@ -118,7 +112,7 @@ void Stage::take_solid(Session& session, const View& view) {
   solid_ = gpu::create_solid(device_, solid_faces_, solid_at_, colors);
 }
 
-void Stage::take_input(const Shape& shape, const View& view) {
+void Stage::take_input(const Shape& shape) {
   const std::vector<std::uint32_t> triangles = triangles_of(shape.faces);
   points_ = gpu::create_points(device_, paths_.skin_on_device, shape.positions, normals_of(shape, triangles));
   if (triangles.empty())
@@ -127,8 +121,6 @@ void Stage::take_input(const Shape& shape, const View& view) {
     triangles_ = gpu::create_triangles(device_, triangles);
   if (triangles.empty() && gpu::holds_splats(shape)) splats_ = gpu::create_splats(shape);
   only_moved_ = false;
-  coloring_ = coloring_of(shape, view.color_by);
-  colored_by_ = view.color_by;
 }
 
 /// Covariances and colours bend on the CPU, by the weights that are shown: without their gradients, which is as near as
@@ -158,10 +150,10 @@ void Stage::color_splats(Session& session) {
   const std::vector<std::uint8_t>& marks = session.point_marks();
   const std::vector<float> stiffness = session.point_stiffness();
   for (std::size_t i = 0; i < splats_->count; ++i) {
-    gpu::PointColor color = coloring_.colors[i];
+    gpu::PointColor color = coloring().colors[i];
     const bool changed = !stiffness.empty() && stiffness[i] != 1;
     if (changed) color = gpu::stiffness_color(color, static_cast<double>(stiffness[i]));
-    if (changed || !colored_by_.empty()) mix(i, color.r, color.g, color.b, 1);
+    if (changed || colored_) mix(i, color.r, color.g, color.b, 1);
     // A selected splat's mark is seen through.
     const std::pair<unsigned, gpu::Color> tints[] = {{gpu::shared::mark_selected, look.outline},
                                                      {gpu::shared::mark_handle, look.handle},
@@ -175,11 +167,13 @@ void Stage::color_splats(Session& session) {
 void Stage::take_marks(Session& session) {
   const std::vector<std::uint8_t>& marks = session.point_marks();
   const std::span<gpu::PointColor> colors = gpu::colors_of(*points_);
-  std::copy(coloring_.colors.begin(), coloring_.colors.end(), colors.begin());
+  std::copy(coloring().colors.begin(), coloring().colors.end(), colors.begin());
   const std::vector<float> stiffness = session.point_stiffness();
   for (std::size_t i = 0; i < stiffness.size(); ++i)
     colors[i] = gpu::stiffness_color(colors[i], static_cast<double>(stiffness[i]));
-  for (std::size_t i = 0; i < marks.size(); ++i) colors[i].marks = marks[i];
+  // Marks would tint the colours that stand for numbers.
+  const unsigned shown = coloring().field ? gpu::shared::mark_selected : 0xff;
+  for (std::size_t i = 0; i < marks.size(); ++i) colors[i].marks = static_cast<std::uint8_t>(marks[i] & shown);
 }
 
 void Stage::take_pose(gpu::Frame& frame, Session& session) {
@@ -230,6 +224,13 @@ gpu::Scene Stage::scene(Session& session, const View& view, const Theme& theme, 
         {.points = &*points_, .size = count < points_->count ? std::max(size, grown) : size, .count = count});
     if (view.show_rest)
       scene.clouds.push_back({.points = &*points_, .size = size, .count = count, .rest = true, .ghost = 0.35});
+  }
+  for (const Ghost& ghost : ghosts_) {
+    const double opacity = 0.4 / (1 + 0.6 * ghost.away);
+    if (ghost.triangles.count > 0)
+      scene.meshes.push_back({.points = &ghost.points, .triangles = &ghost.triangles, .ghost = opacity});
+    else
+      scene.clouds.push_back({.points = &ghost.points, .size = size, .ghost = opacity});
   }
   add_structure(scene, session, view);
   if (view.show_markers)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/editor/input.h"
 #include "apps/editor/theme.h"
 
 namespace sinew::editor {
@@ -29,6 +30,7 @@ void show_ui(Ui& ui) {
   show_column(ui);
   show_history(ui);
   show_start(ui);
+  show_legend(ui);
   show_timeline(ui);
   show_status(ui);
   show_job(ui);
@@ -37,6 +39,8 @@ void show_ui(Ui& ui) {
   show_keymap(ui);
   show_dialogs(ui);
   show_recovery(ui);
+  show_turntable(ui);
+  if (ui.files.looking()) ui.next_frame = std::min(ui.next_frame, now() + 0.05);
   ui.files.show(ui.context.preferences.recent);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/editor/commands.h"
+#include "apps/editor/legend.h"
 #include "apps/editor/mouse.h"
 #include "apps/editor/recovery.h"
 #include "apps/editor/stage.h"
@@ -39,12 +40,26 @@ struct Question {
   std::function<void()> confirmed;
 };
 
+/// What a turntable is to be.
+struct TurntableChoice {
+  int pictures = 60, width = 1280, height = 720;
+  double degrees = 360;
+};
+
+/// A drag of the legend's ends that runs.
+struct LegendDrag {
+  LegendPart part = LegendPart::None;
+  document::ValueRange domain, before;
+  float from = 0;  ///< pixels, where it began
+};
+
 struct Ui {
   Context& context;
   Stage& stage;
   Mouse& mouse;
-  std::string device;  ///< "llvmpipe, CPU skinning"
-  std::string sample;  ///< path of the sample scan; empty: none
+  std::string device;                 ///< "llvmpipe, CPU skinning"
+  std::string sample;                 ///< path of the sample scan; empty: none
+  std::vector<std::string> pictured;  ///< recent files that fonts().pictures show, in that order
   MarkCounts marks;
   Layout layout;
   float column_width = 272;  ///< at scale 1
@@ -52,6 +67,11 @@ struct Ui {
   FileDialog files;
   std::vector<Toast> toasts;
   bool palette = false, keymap = false, about = false, settings = false, navigation_choice = false;
+  bool turntable = false;
+  TurntableChoice turntable_choice;
+  LegendDrag legend;
+  std::optional<Job> drawing;  ///< pictures that are being written
+  std::function<void()> cancel_drawing;
   Question ask;
   Recovery recovery{Window::wake};
   std::size_t history_seen = 0;  ///< the present step when the history was shown last
@@ -67,8 +87,8 @@ struct Ui {
   double next_frame = 1e300;  ///< when, by now(), the interface will change by itself
 
   bool dialog() const {
-    return files.shown() || palette || keymap || about || settings || navigation_choice || !ask.text.empty() ||
-           recovery.offered() != nullptr;
+    return files.shown() || palette || keymap || about || settings || navigation_choice || turntable ||
+           !ask.text.empty() || recovery.offered() != nullptr;
   }
 };
 
@@ -90,6 +110,9 @@ void show_job(Ui& ui);
 void show_toasts(Ui& ui);
 void show_history(Ui& ui);
 void show_recovery(Ui& ui);
+void show_legend(Ui& ui);     ///< of what the colours stand for, beside the scene
+void show_coloring(Ui& ui);   ///< rows of the column
+void show_turntable(Ui& ui);  ///< the dialog
 void show_palette(Ui& ui);
 void show_keymap(Ui& ui);
 void show_dialogs(Ui& ui);  ///< about, settings, navigation

@@ -12,7 +12,6 @@
 #include "apps/editor/ui.h"
 #include "apps/editor/widgets.h"
 #include "engine/document/settings.h"
-#include "engine/gpu/colormap.h"
 
 namespace sinew::editor {
 
@@ -287,26 +286,6 @@ void show_marks(Ui& ui) {
     session.select_none();
 }
 
-void show_legend(const Coloring& coloring) {
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = px(8);
-  ImDrawList* list = ImGui::GetWindowDrawList();
-  constexpr int steps = 32;
-  for (int i = 0; i < steps; ++i) {
-    const auto color = [&](int step) {
-      const gpu::PointColor c = gpu::color_at(gpu::Colormap::Viridis, static_cast<double>(step) / steps);
-      return IM_COL32(c.r, c.g, c.b, 255);
-    };
-    const float x0 = at.x + std::round(width * static_cast<float>(i) / steps);
-    const float x1 = at.x + std::round(width * static_cast<float>(i + 1) / steps);
-    list->AddRectFilledMultiColor({x0, at.y + px(4)}, {x1, at.y + px(4) + height}, color(i), color(i + 1), color(i + 1),
-                                  color(i));
-  }
-  ImGui::Dummy({width, height + px(8)});
-  ImGui::TextDisabled("%s", fmt::format("{:.4g}", coloring.low).c_str());
-  widget::value_right(fmt::format("{:.4g}", coloring.high), theme().faint);
-}
-
 /// Axis and place of the plane that cuts the tets.
 void show_section(gpu::Section& section) {
   widget::label("Cut across", "The axis that the plane of the cut is perpendicular to");
@@ -318,24 +297,26 @@ void show_section(gpu::Section& section) {
   if (widget::slider("##at", percent, 0, 100, "%.0f %%")) section.at = static_cast<double>(percent) / 100;
 }
 
+/// A whole number in its row.
+void whole(const char* name, const char* help, int most, const char* unit, int& value) {
+  widget::label(name, help);
+  ImGui::PushID(name);
+  double shown = value;
+  widget::number("##value", shown, {1, static_cast<double>(most), true, false, unit});
+  value = static_cast<int>(shown);
+  ImGui::PopID();
+}
+
+void show_onion(View& view) {
+  whole("Ghosts", "So many before the frame shown, and so many after it", 8, "each side", view.onion_frames);
+  whole("Apart", "Frames from one ghost to the next", 100, "frames", view.onion_step);
+}
+
 void show_look(Ui& ui) {
   View& view = ui.context.view;
-  const Shape& shape = *ui.context.session.input();
   widget::heading("SHOW");
   push_fields();
-  std::vector<std::string> attributes = color_choices(shape);
-  if (ui.context.session.layer() != nullptr) attributes.emplace_back(energy_choice);
-  if (!attributes.empty()) {
-    std::vector<std::string> names{"Plain"};
-    names.insert(names.end(), attributes.begin(), attributes.end());
-    std::size_t chosen = 0;
-    for (std::size_t i = 0; i < attributes.size(); ++i)
-      if (attributes[i] == view.color_by) chosen = i + 1;
-    widget::label("Colour by",
-                  "The attribute that gives the points their colour, or where the layer's structure is strained");
-    if (widget::choice("##color", chosen, names)) view.color_by = chosen == 0 ? "" : attributes[chosen - 1];
-    if (ui.stage.coloring().has_range) show_legend(ui.stage.coloring());
-  }
+  show_coloring(ui);
   if (!ui.stage.is_mesh() && !ui.stage.is_splats()) {
     widget::label("Point size", "Diameter of a point on the screen");
     auto size = static_cast<float>(view.point_size);
@@ -363,6 +344,10 @@ void show_look(Ui& ui) {
   if (ui.context.session.layer() != nullptr)
     toggle("Rest shape", "A ghost of the shape before any edit", view.show_rest);
   toggle("Ground", "A grid below the shape", view.show_ground);
+  if (ui.context.session.moves()) {
+    toggle("Onion skin", "Ghosts of frames before and after, while nothing moves", view.show_onion);
+    if (view.show_onion) show_onion(view);
+  }
   pop_fields();
 }
 

@@ -29,7 +29,7 @@ void show_about(Ui& ui) {
 }
 
 void show_preferences(Ui& ui) {
-  if (!widget::begin_dialog(ui.settings, "preferences", 400, 200)) return;
+  if (!widget::begin_dialog(ui.settings, "preferences", 400, 228)) return;
   Preferences& chosen = ui.context.preferences;
   ImGui::PushFont(fonts().bold);
   ImGui::TextUnformatted("Preferences");
@@ -60,6 +60,8 @@ void show_preferences(Ui& ui) {
     ui.context.view.up = chosen.up;
     ui.context.view.camera = levelled(ui.context.view.camera, chosen.up);
   }
+  widget::label("Desktop dialogs", "Open and save by the file dialog of the desktop, where there is one");
+  widget::checkbox("##native", chosen.native_dialogs);
   ImGui::Dummy({0, px(8)});
   if (widget::button("Done", true)) ui.settings = false;
   widget::end_dialog(ui.settings);

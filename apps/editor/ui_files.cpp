@@ -21,6 +21,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::size_t most_notes = 4;
+
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -49,6 +51,8 @@ void FileDialog::open(FileRequest request) {
   ask_again_ = close_ = false;
   filter_.clear();
   name_.clear();
+  looked_at_.clear();
+  changes_.clear();
   std::error_code error;
   const fs::path start = absolute(request_.start);
   if (fs::is_directory(start, error)) {
@@ -123,6 +127,27 @@ void FileDialog::choose() {
   }
 }
 
+/// The sentences above the buttons: what went wrong, else what the file would not hold, else the request's own.
+std::vector<std::string> FileDialog::notes() {
+  if (std::optional<Background::Outcome> outcome = looking_.take(); outcome && outcome->finish) outcome->finish();
+  if (!error_.empty()) return {error_};
+  if (request_.changes) {
+    const bool frames = name_.find_first_of("#@%") != std::string::npos;
+    const std::string ending = lower(fs::path(name_).extension().string()) + (frames ? "#" : "");
+    if (ending != looked_at_ && !looking_.busy()) {
+      looked_at_ = ending;
+      looking_.start("Looking at the format", false,
+                     [this, path = (fs::path(folder_) / name_).string(),
+                      changes = request_.changes](const Tell&) -> Background::Finish {
+                       auto found = std::make_shared<std::vector<std::string>>(changes(path));
+                       return [this, found] { changes_ = std::move(*found); };
+                     });
+    }
+    if (!changes_.empty()) return changes_;
+  }
+  return request_.note.empty() ? std::vector<std::string>{} : std::vector{request_.note};
+}
+
 void FileDialog::show(std::span<const std::string> recent) {
   if (!shown_) return;
   if (just_opened_) ImGui::OpenPopup("files");
@@ -137,14 +162,20 @@ void FileDialog::show(std::span<const std::string> recent) {
   ImGui::PopStyleVar(2);
   if (!open) return;
   show_head();
-  const float foot = px(28 + 12) + px(request_.save ? 32 : 0) + (request_.note.empty() && error_.empty() ? 0 : px(24));
+  std::vector<std::string> sentences = notes();
+  if (sentences.size() > most_notes) {
+    const std::size_t more = sentences.size() - most_notes + 1;
+    sentences.resize(most_notes - 1);
+    sentences.push_back("and " + std::to_string(more) + " more");
+  }
+  const float foot = px(28 + 12) + px(request_.save ? 32 : 0) + px(24) * static_cast<float>(sentences.size());
   const float height = ImGui::GetContentRegionAvail().y - foot;
   if (!request_.save && !recent.empty()) {
     show_recent(recent, px(200), height);
     ImGui::SameLine(0, px(12));
   }
   show_entries(height);
-  show_foot();
+  show_foot(sentences);
   if (close_) {
     shown_ = false;
     ImGui::CloseCurrentPopup();
@@ -242,11 +273,13 @@ void FileDialog::show_entries(float height) {
   if (!taken.empty()) take(taken);
 }
 
-void FileDialog::show_foot() {
+void FileDialog::show_foot(std::span<const std::string> sentences) {
   ImGui::Dummy({0, px(4)});
-  const std::string& sentence = error_.empty() ? request_.note : error_;
-  if (!sentence.empty()) {
-    widget::text_cut(sentence, ImGui::GetContentRegionAvail().x, error_.empty() ? theme().quiet : theme().warning);
+  const bool warns = !error_.empty() || !changes_.empty();
+  for (const std::string& sentence : sentences) {
+    const ImVec2 at = ImGui::GetCursorPos();
+    widget::text_cut(sentence, ImGui::GetContentRegionAvail().x, warns ? theme().warning : theme().quiet);
+    ImGui::SetCursorPos({at.x, at.y + px(24)});
   }
   if (request_.save) {
     ImGui::AlignTextToFramePadding();

@@ -18,6 +18,13 @@ namespace {
 
 constexpr double toast_seconds = 6;
 constexpr double job_patience = 0.2;  ///< what takes less is not shown
+constexpr float job_width = 380, job_height = 64;
+
+/// The work that is shown now: the session's first.
+std::optional<Job> shown_job(const Ui& ui) {
+  const std::optional<Job> own = ui.context.session.job();
+  return own ? own : ui.drawing;
+}
 
 void centred(const std::string& text, ImFont* font, const ImVec4& color) {
   ImGui::PushFont(font);
@@ -28,42 +35,65 @@ void centred(const std::string& text, ImFont* font, const ImVec4& color) {
   ImGui::PopFont();
 }
 
-void show_recent(Ui& ui, float width) {
-  const std::vector<std::string>& recent = ui.context.preferences.recent;
-  std::size_t shown = 0;
-  for (const std::string& path : recent) {
-    std::error_code error;
-    if (!std::filesystem::exists(path, error)) continue;
-    if (shown == 0) {
-      ImGui::Dummy({0, px(20)});
-      widget::heading("RECENT", true);
-    }
-    if (++shown > 6) break;
-    ImGui::PushID(path.c_str());
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const bool pressed = ImGui::InvisibleButton("recent", {width, px(28)});
-    ImDrawList* list = ImGui::GetWindowDrawList();
-    if (ImGui::IsItemHovered())
-      list->AddRectFilled({at.x - px(8), at.y}, {at.x + width + px(8), at.y + px(28)}, packed(theme().hover), px(4));
-    const float y = at.y + std::round(0.5f * (px(28) - ImGui::GetFontSize()));
-    const std::string name = std::filesystem::path(path).filename().string();
-    const std::string folder = std::filesystem::path(path).parent_path().string();
-    const std::string name_shown = widget::cut(name, 0.5f * width);
-    const float name_width = ImGui::CalcTextSize(name_shown.c_str()).x;
-    widget::text_at(list, ImGui::GetFont(), {at.x, y}, theme().text, name_shown);
-    const std::string folder_shown = widget::cut(folder, width - name_width - px(16));
-    widget::text_at(list, ImGui::GetFont(), {at.x + width - ImGui::CalcTextSize(folder_shown.c_str()).x, y},
-                    theme().faint, folder_shown);
-    ImGui::PopID();
-    if (pressed) ui.context.session.open(path);
+constexpr float card_width = 144, picture_height = 96, card_height = 140, card_gap = 16;
+
+/// A recent file: its picture, or an icon where there is none, its name and its folder.
+void show_card(Ui& ui, const std::string& path, ImVec2 at) {
+  ImGui::PushID(path.c_str());
+  ImGui::SetCursorScreenPos(at);
+  const bool pressed = ImGui::InvisibleButton("recent", {px(card_width), px(card_height)});
+  const bool hovered = ImGui::IsItemHovered();
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  const ImVec2 end{at.x + px(card_width), at.y + px(picture_height)};
+  list->AddRectFilled(at, end, packed(theme().field), px(4));
+  const auto found = std::find(ui.pictured.begin(), ui.pictured.end(), path);
+  const auto picture = static_cast<std::size_t>(found - ui.pictured.begin());
+  if (picture < fonts().pictures.size()) {
+    const Fonts::Place& place = fonts().pictures[picture];
+    list->AddImageRounded(ImGui::GetIO().Fonts->TexID, at, end, place.from, place.to, IM_COL32_WHITE, px(4));
+  } else {
+    const ImVec2 size = widget::size_of(fonts().icons, icon::cube);
+    widget::text_at(list, fonts().icons, {0.5f * (at.x + end.x - size.x), 0.5f * (at.y + end.y - size.y)},
+                    theme().faint, icon::cube);
   }
+  list->AddRect(at, end, packed(hovered ? theme().accent : theme().line), px(4), 0, px(hovered ? 2 : 1));
+  const std::filesystem::path file(path);
+  widget::text_at(list, ImGui::GetFont(), {at.x, end.y + px(6)}, theme().text,
+                  widget::cut(file.filename().string(), px(card_width)));
+  widget::text_at(list, ImGui::GetFont(), {at.x, end.y + px(24)}, theme().faint,
+                  widget::cut(file.parent_path().filename().string(), px(card_width)));
+  if (hovered) widget::tooltip(path);
+  ImGui::PopID();
+  if (pressed) ui.context.session.open(path);
+}
+
+/// Cards, three a row, as many rows as there is room for.
+void show_recent(Ui& ui) {
+  std::vector<std::string> files;
+  for (const std::string& path : ui.context.preferences.recent) {
+    std::error_code error;
+    if (std::filesystem::exists(path, error) ||
+        std::filesystem::path(path).filename().string().find_first_of("#%@") != std::string::npos)
+      files.push_back(path);
+  }
+  if (files.empty()) return;
+  ImGui::Dummy({0, px(12)});
+  widget::heading("RECENT", true);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float room = ImGui::GetContentRegionAvail().y;
+  const auto rows = static_cast<std::size_t>(std::max(0.0f, (room + px(4)) / px(card_height + 4)));
+  for (std::size_t i = 0; i < std::min(files.size(), std::min<std::size_t>(2, rows) * 3); ++i)
+    show_card(ui, files[i],
+              {at.x + static_cast<float>(i % 3) * px(card_width + card_gap),
+               at.y + static_cast<float>(i / 3) * px(card_height + 4)});
 }
 
 }  // namespace
 
 void show_start(Ui& ui) {
   if (ui.context.session.has_input() || ui.context.session.job()) return;
-  const float width = px(440), height = std::min(px(420), ui.layout.bottom - ui.layout.top - px(16));
+  const float width = px(3 * card_width + 2 * card_gap + 48),
+              height = std::min(px(476), ui.layout.bottom - ui.layout.top - px(16));
   const ImVec2 at{std::round(0.5f * (ui.layout.width - width)),
                   std::round(std::max(ui.layout.top + px(8), 0.44f * (ui.layout.height - height)))};
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(24), px(16)));
@@ -71,7 +101,7 @@ void show_start(Ui& ui) {
   centred("Bend anything that is made of points", fonts().big, theme().text);
   ImGui::Dummy({0, px(2)});
   centred("Open a scan, a mesh or a polygon soup, or drop a file here.", fonts().text, theme().quiet);
-  ImGui::Dummy({0, px(12)});
+  ImGui::Dummy({0, px(8)});
   const float button = px(132), buttons = ui.sample.empty() ? button : 2 * button + px(12);
   ImGui::SetCursorPosX(std::round(0.5f * (width - buttons)));
   if (widget::button("Open…", true, button)) run(ui, "file.open");
@@ -79,19 +109,19 @@ void show_start(Ui& ui) {
     ImGui::SameLine(0, px(12));
     if (widget::button("Sample scan", false, button)) ui.context.session.open(ui.sample);
   }
-  show_recent(ui, width - 2 * px(24));
+  show_recent(ui);
   ImGui::End();
   ImGui::PopStyleVar();
 }
 
 void show_job(Ui& ui) {
-  const std::optional<Job> job = ui.context.session.job();
+  const std::optional<Job> job = shown_job(ui);
   if (!job) return;
   if (job->seconds < job_patience) {
     ui.next_frame = std::min(ui.next_frame, now() + job_patience - job->seconds);
     return;
   }
-  const float width = px(340), height = px(64);
+  const float width = px(job_width), height = px(job_height);
   const float middle = 0.5f * (ui.context.session.has_input() ? ui.layout.column : ui.layout.width);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(6));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(12), px(10)));
@@ -125,7 +155,8 @@ void show_job(Ui& ui) {
   }
   if (job->can_cancel) {
     ImGui::SetCursorScreenPos({start.x + width - px(24) - cancel, start.y + px(8)});
-    if (widget::button("Cancel", false, cancel)) ui.context.session.cancel_job();
+    if (widget::button("Cancel", false, cancel))
+      ui.context.session.job() ? ui.context.session.cancel_job() : ui.cancel_drawing();
   }
   ImGui::End();
   ImGui::PopStyleVar(2);
@@ -139,13 +170,21 @@ bool passes(const Notice& notice) {
   return notice.severity != Severity::Warning && notice.severity != Severity::Error;
 }
 
+/// The command that a notice offers, while it can be run and nothing was edited: then something else is being done.
+const Command* offered(const Ui& ui, const Notice& notice) {
+  if (ui.context.session.dirty()) return nullptr;
+  const Command* command = notice.command.empty() ? nullptr : find_command(notice.command);
+  return command != nullptr && command->enabled(ui.context) ? command : nullptr;
+}
+
 /// One message; false when it is to go.
-bool show_toast(const Toast& toast, float right, float& bottom, int number) {
+bool show_toast(Ui& ui, const Toast& toast, float right, float& bottom, int number) {
   const bool bad = !passes(toast.notice);
+  const Command* command = offered(ui, toast.notice);
   const float width = std::min(px(420), right - px(72));
   const float text_width = width - px(12 + 24 + 28 + 4);
   const ImVec2 text = ImGui::CalcTextSize(toast.notice.text.c_str(), nullptr, false, text_width);
-  const float height = std::round(text.y) + px(20);
+  const float height = std::round(text.y) + px(20) + (command != nullptr ? px(32) : 0);
   bottom -= height;
   const ImVec2 at{right - width, bottom};
   bottom -= px(8);
@@ -159,12 +198,18 @@ bool show_toast(const Toast& toast, float right, float& bottom, int number) {
   ImGui::PushTextWrapPos(px(36) + text_width);
   ImGui::TextUnformatted(toast.notice.text.c_str());
   ImGui::PopTextWrapPos();
+  bool taken = false;
+  if (command != nullptr) {
+    ImGui::SetCursorScreenPos({at.x + px(36), at.y + std::round(text.y) + px(16)});
+    taken = widget::button(command->title, true);
+  }
   ImGui::SetCursorScreenPos({at.x + width - px(28), at.y + px(6)});
   const bool closed = widget::icon_button(icon::close, "close", false, px(22), theme().quiet, "Close");
   const bool hovered = ImGui::IsWindowHovered();
   ImGui::End();
   ImGui::PopStyleColor();
-  return !closed && (bad || hovered || now() - toast.since < toast_seconds);
+  if (taken) run_command(*command, ui.context);
+  return !closed && !taken && (bad || command != nullptr || hovered || now() - toast.since < toast_seconds);
 }
 
 void show_hints(Ui& ui) {
@@ -201,16 +246,18 @@ void show_toasts(Ui& ui) {
   for (Notice& notice : ui.context.session.take_notices()) ui.toasts.push_back({std::move(notice), now()});
   const float right = (ui.context.session.has_input() ? ui.layout.column : ui.layout.width) - px(12);
   float bottom = ui.layout.bottom - px(12);
+  // Above the work with its button.
+  if (const std::optional<Job> job = shown_job(ui); job && job->seconds >= job_patience) bottom -= px(job_height + 12);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(6));
   for (std::size_t i = ui.toasts.size(); i-- > 0;) {
-    if (bottom < ui.layout.top + px(80) || !show_toast(ui.toasts[i], right, bottom, static_cast<int>(i)))
+    if (bottom < ui.layout.top + px(80) || !show_toast(ui, ui.toasts[i], right, bottom, static_cast<int>(i)))
       ui.toasts.erase(ui.toasts.begin() + static_cast<std::ptrdiff_t>(i));
   }
   ImGui::PopStyleVar();
   for (const Toast& toast : ui.toasts)
     if (passes(toast.notice))
       ui.next_frame = std::min(ui.next_frame, std::max(now() + 0.2, toast.since + toast_seconds));
-  if (ui.toasts.empty() && !ui.context.session.job()) show_hints(ui);
+  if (ui.toasts.empty() && !shown_job(ui)) show_hints(ui);
 }
 
 }  // namespace sinew::editor

@@ -74,6 +74,34 @@ float flag_half(int frame) {
   return 0.5F * widget::size_of(fonts().bold, std::to_string(frame)).x + px(5);
 }
 
+/// What is not played lies in the shade; the ends of the range can be dragged.
+void show_range(Ui& ui, ImDrawList* list, const Track& track) {
+  Session& session = ui.context.session;
+  const auto [begin, end] = session.play_range();
+  for (const bool first : {true, false}) {
+    const int frame = first ? begin : end;
+    if (frame == (first ? track.first : track.last)) continue;
+    const float x = std::round(track.x(frame));
+    const float far = first ? track.left - px(8) : track.right + px(8);
+    list->AddRectFilled({std::min(x, far), track.top}, {std::max(x, far), track.bottom}, packed(theme().shade, 0.8F),
+                        px(4), first ? ImDrawFlags_RoundCornersLeft : ImDrawFlags_RoundCornersRight);
+    list->AddLine({x, track.top}, {x, track.bottom}, packed(theme().quiet), px(2));
+    ImGui::PushID(first ? "begin" : "end");
+    ImGui::SetCursorScreenPos({x - px(5), track.bottom - px(8)});
+    ImGui::InvisibleButton("edge", {px(10), px(8)});
+    if (ImGui::IsItemHovered() || ImGui::IsItemActive()) {
+      ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
+      if (!ImGui::IsItemActive()) widget::tooltip(first ? "Playing begins here" : "Playing ends here");
+    }
+    if (ImGui::IsItemActive()) {
+      const int to = track.frame(ImGui::GetMousePos().x);
+      if (first && to < end) session.set_play_range(std::pair(to, end));
+      if (!first && to > begin) session.set_play_range(std::pair(begin, to));
+    }
+    ImGui::PopID();
+  }
+}
+
 /// `shown`: the frame whose flag covers what is below it.
 void draw_ticks(ImDrawList* list, const Track& track, int shown) {
   const int step = tick_step(track);
@@ -202,6 +230,7 @@ void show_timeline(Ui& ui) {
   track.last = session.frames().back();
   scrub(session, track);
   draw_ticks(list, track, session.wanted_frame());
+  show_range(ui, list, track);
   draw_head(list, track, session.wanted_frame(), !session.playing() && session.wanted_frame() != session.frame());
   show_keys(ui, list, track);
   ImGui::SetCursorScreenPos({ui.layout.width - pad - px(28), row});

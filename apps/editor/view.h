@@ -8,6 +8,8 @@
 #include "apps/editor/manipulation.h"
 #include "apps/editor/navigation.h"
 #include "apps/editor/tools.h"
+#include "engine/document/field.h"
+#include "engine/gpu/colormap.h"
 #include "engine/gpu/solid.h"
 
 namespace sinew::editor {
@@ -32,9 +34,15 @@ struct View {
   bool show_graph = false, show_rest = false, show_ground = true;
   bool show_markers = true;
   bool show_history = false;
-  bool cut_tets = false;  ///< the structure of a solid is shown cut open
-  gpu::Section section;   ///< where
-  std::string color_by;   ///< an attribute's name; empty: plain
+  bool cut_tets = false;                            ///< the structure of a solid is shown cut open
+  gpu::Section section;                             ///< where
+  std::string color_by;                             ///< an attribute's name; empty: plain
+  std::optional<document::FieldKind> heat;          ///< what the edit does, in place of an attribute
+  std::optional<gpu::Colormap> colormap;            ///< nothing: the usual one of what is shown
+  std::optional<document::ValueRange> color_range;  ///< nothing: the usual one
+  std::optional<Index> clicked;                     ///< the point that was clicked last
+  bool show_onion = false;                          ///< ghosts of other frames
+  int onion_frames = 2, onion_step = 2;             ///< so many before and after, so many frames apart
 
   /// A drag by gizmo or by G and R that runs now.
   std::optional<Manipulation> manipulation;

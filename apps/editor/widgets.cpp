@@ -144,7 +144,8 @@ bool choice(const char* id, std::size_t& chosen, std::span<const std::string> na
   const std::string none;
   const std::string& shown = chosen < names.size() ? names[chosen] : none;
   const float room = ImGui::CalcItemWidth() - px(32);
-  const bool open = ImGui::BeginCombo(id, cut(shown, room).c_str(), ImGuiComboFlags_NoArrowButton);
+  const bool open =
+      ImGui::BeginCombo(id, cut(shown, room).c_str(), ImGuiComboFlags_NoArrowButton | ImGuiComboFlags_HeightLarge);
   if (open) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       if (ImGui::Selectable(names[i].c_str(), i == chosen)) {

@@ -46,6 +46,7 @@ const std::map<std::string, std::vector<std::string>>& third_party() {
       {"nlohmann/", {"engine/document/json_parse.cpp", "engine/io/json_tree.cpp"}},
       {"CLI/", {"apps/sinew/command_line.cpp", "apps/samples/main.cpp", "apps/editor/main.cpp"}},
       {"GLFW/", {"apps/editor/window.cpp", "apps/editor/gui.cpp"}},
+      {"systemd/", {"apps/editor/portal.cpp"}},
       {"imgui", {"apps/editor/*"}},
       {"backends/imgui", {"apps/editor/gui.cpp"}},
   };
