@@ -22,6 +22,8 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double end_on = 0.1;  ///< sine between an axis and the line of sight below which it can't be drawn or held
 constexpr double ring_edge_on = 0.2;  ///< cosine below which a ring is dragged along, not around
 constexpr double turn_snap = 5;       ///< degrees
+constexpr double scale_snap = 0.1;
+constexpr double middle = 0.3;  ///< of the gizmo's length: nearer to its middle a scale is no quotient of distances
 
 bool is_axis(GizmoPart part) {
   return part == GizmoPart::X || part == GizmoPart::Y || part == GizmoPart::Z;
@@ -121,6 +123,15 @@ struct Tracer {
     add(std::move(stroke), corners, (a + b).dot(eye) / length);
   }
 
+  /// In the middle, facing the eye.
+  void square(double half) {
+    const Vec3 up = camera.up - camera.up.dot(eye) * eye;
+    const Vec3 b = half * (up.norm() > 1e-9 ? up.normalized() : eye.unitOrthogonal()), a = b.cross(eye);
+    const std::array corners{Vec3(gizmo.centre - a - b), Vec3(gizmo.centre + a - b), Vec3(gizmo.centre + a + b),
+                             Vec3(gizmo.centre - a + b)};
+    add({GizmoPart::Screen, {}, true, true, 1}, corners, 0);
+  }
+
   /// Points of a circle; of an axis ring the run of those on the side of the eye.
   void ring(GizmoPart part, const Vec3& axis, double radius) {
     constexpr int segments = 96;
@@ -162,6 +173,9 @@ std::vector<GizmoStroke> gizmo_strokes(const Gizmo& gizmo, const gpu::Camera& ca
       tracer.strokes.back().second.filled = true;
       tracer.strokes.back().first = 0;
     }
+  } else if (gizmo.kind == GizmoKind::Scale) {
+    for (int column = 0; column < 3; ++column) tracer.arrow(column);
+    tracer.square(0.1 * tracer.length);
   } else {
     tracer.ring(GizmoPart::Screen, tracer.eye, 1.18 * tracer.length);
     for (int column = 0; column < 3; ++column)
@@ -202,6 +216,7 @@ std::optional<std::size_t> hit_handle(std::span<const Vec3> balls, const gpu::Ca
 Manipulation::Manipulation(const Gizmo& gizmo, GizmoPart part, const Vec2& at, double snap)
     : gizmo_(gizmo),
       part_(part == GizmoPart::None ? GizmoPart::Screen : part),
+      grabbed_(part_),
       last_(at),
       begin_(at),
       cursor_(at),
@@ -234,7 +249,7 @@ bool Manipulation::press(int key, int modifiers) {
     return true;
   }
   if (key >= 'X' && key <= 'Z' && (modifiers & (modifier::control | modifier::alt)) == 0) {
-    const bool plane = (modifiers & modifier::shift) != 0 && gizmo_.kind == GizmoKind::Translate;
+    const bool plane = (modifiers & modifier::shift) != 0 && gizmo_.kind != GizmoKind::Rotate;
     const GizmoPart wanted = part_of(plane, key - 'X');
     part_ = part_ == wanted ? GizmoPart::Screen : wanted;
   } else if (key >= '0' && key <= '9') {
@@ -278,11 +293,49 @@ void Manipulation::solve() {
     motion_.move = translation();
     return;
   }
+  if (gizmo_.kind == GizmoKind::Scale) {
+    motion_.stretch = stretch();
+    return;
+  }
   const Vec3 eye = seen_ ? towards_eye(camera_, gizmo_.centre) : Vec3(0, 0, 1);
   motion_.axis = is_axis(part_) ? axis() : eye;
   double degrees = motion_.axis.dot(eye) < 0 ? -degrees_ : degrees_;
   if (snapping_) degrees = std::round(degrees / turn_snap) * turn_snap;
   motion_.degrees = value.value_or(degrees);
+}
+
+/// How many times as long, along the axes that it is held to.
+double Manipulation::factor() const {
+  if (const std::optional<double> value = typed()) return std::max(least_scale, *value);
+  Vec3 centre, tip;
+  if (!gpu::project(camera_, size_, gizmo_.centre, centre)) return 1;
+  const Vec2 from = begin_ - centre.head<2>(), to = cursor_ - centre.head<2>();
+  double out = 1;
+  const Vec3 along = is_axis(grabbed_) ? Vec3(gizmo_.axes.col(column_of(grabbed_))) : Vec3(0, 0, 0);
+  const double step = gpu::pixel_size(camera_, size_.y(), gizmo_.centre);
+  if (is_axis(grabbed_) && gpu::project(camera_, size_, gizmo_.centre + step * along, tip)) {
+    const Vec2 line = (tip - centre).head<2>().normalized();
+    out = std::abs(from.dot(line)) > 1 ? to.dot(line) / from.dot(line) : 1;
+  } else if (from.norm() < middle * gizmo_.length) {
+    const Vec2 way = cursor_ - begin_;
+    out = 1 + (way.x() - way.y()) / gizmo_.length;
+  } else {
+    out = to.norm() / from.norm();
+  }
+  if (snapping_) out = std::round(out / scale_snap) * scale_snap;
+  return std::isfinite(out) ? std::max(least_scale, out) : 1;
+}
+
+Mat3 Manipulation::stretch() const {
+  const double by = factor();
+  if (by == 1) return Mat3::Identity();
+  Vec3 factors = Vec3::Constant(by);
+  if (is_axis(part_)) factors = Vec3::Ones();
+  if (is_axis(part_) || is_plane(part_)) factors[column_of(part_)] = is_axis(part_) ? by : 1;
+  const Mat3& axes = gizmo_.axes;
+  if (axes == Mat3::Identity()) return factors.asDiagonal();
+  const Mat3 out = axes * factors.asDiagonal() * axes.transpose();
+  return 0.5 * (out + out.transpose());
 }
 
 Vec3 Manipulation::translation() const {
@@ -362,6 +415,7 @@ std::string Manipulation::text() const {
   if (is_plane(part_)) held = std::string{names[(column_of(part_) + 1) % 3], names[(column_of(part_) + 2) % 3]} + " ";
   if (!typed_.empty()) return fmt::format("{}[{}]{}", held, typed_, gizmo_.kind == GizmoKind::Rotate ? "°" : "");
   if (gizmo_.kind == GizmoKind::Rotate) return fmt::format("{}{:.1f}°", held, motion_.degrees);
+  if (gizmo_.kind == GizmoKind::Scale) return fmt::format("{}× {:.3g}", held, seen_ ? factor() : 1);
   const Vec3 along = gizmo_.axes.transpose() * motion_.move;
   if (is_axis(part_)) return fmt::format("{}{:.4g}", held, along[column_of(part_)]);
   return fmt::format("{}{:.4g}, {:.4g}, {:.4g}", held, motion_.move.x(), motion_.move.y(), motion_.move.z());

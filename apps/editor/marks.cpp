@@ -7,6 +7,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "engine/geometry/rotation.h"
 #include "engine/geometry/skin.h"
 #include "shaders/shared.h"
 
@@ -138,9 +139,10 @@ struct BentPoint {
 
 }  // namespace
 
-Vec3 RigidMotion::operator()(const Vec3& p) const {
-  if (degrees == 0) return p + move;
-  return matrix_of(axis, degrees) * (p - pivot) + pivot + move;
+Vec3 Transform::operator()(const Vec3& p) const {
+  if (!turns() && !stretches()) return p + move;
+  const Vec3 arm = turns() ? Vec3(matrix_of(axis, degrees) * (p - pivot)) : Vec3(p - pivot);
+  return stretch * arm + pivot + move;
 }
 
 LayerPoints points_of(const Layer& layer, document::Selector& selector, std::optional<int> frame) {
@@ -258,9 +260,53 @@ Layer with_pivots(const Layer& layer, std::span<const Vec3> centres, const Vec3&
   return out;
 }
 
-Motion moved(const Motion& before, const RigidMotion& by, const Vec3& centre, const Vec3& origin) {
+namespace {
+
+/// `now` turned on by R, which is about `turn` (axis times degrees).
+Rotation turned(const Rotation& now, const Mat3& R, const Vec3& turn) {
+  const Vec3 axis = now.axis.stableNormalized();
+  const Eigen::AngleAxisd both(Mat3(R * matrix_of(now.axis, now.degrees)));
+  Rotation out = nearest_turn(both, axis * now.degrees + turn, 1e-7);
+  out.about = now.about;
+  return out;
+}
+
+/// M (R1 (p - c) + c + ...) = P Q R1 (p - c) + c', where P Q is the left polar form of M: P symmetric, about c.
+Motion stretched(const Motion& before, const Transform& by, const Vec3& centre, const Vec3& origin) {
+  const Mat3 A = before.matrix ? Mat3(before.matrix->topLeftCorner<3, 3>()) : Mat3(Mat3::Identity());
+  const Mat3 R = by.turns() ? matrix_of(by.axis, by.degrees) : Mat3(Mat3::Identity());
+  const Mat3 M = by.stretch * R * A;
+  Rotation rotate = before.rotate.value_or(Rotation{by.axis, 0, std::nullopt});
+  const Vec3 c = rotate.about ? Vec3(*rotate.about - origin) : centre;
+  const Vec3 at = by(document::targets_of({before.move, std::nullopt, before.matrix, {}}, std::span(&c, 1), origin)[0]);
+  Motion out;
+  Mat3 P = M;
+  if (M.determinant() > 0) {  // else there is a mirror in it, and it stays as it is
+    const Mat3 Q = nearest_rotation(M);
+    P = M * Q.transpose();
+    P = Mat3(0.5 * (P + P.transpose()));
+    // The turn that was asked for says how often it goes round, the polar form only where it ends.
+    const Eigen::AngleAxisd rest(Mat3(Q * R.transpose()));
+    rotate.about = c + origin;
+    if (by.turns() || rest.angle() > 1e-9)
+      rotate = turned(rotate, Q,
+                      by.turns() ? Vec3(by.axis.stableNormalized() * by.degrees)
+                                 : Vec3(rest.axis() * (rest.angle() * 180 / std::numbers::pi)));
+  }
+  if (rotate.degrees != 0) out.rotate = rotate;
+  if ((P - Mat3::Identity()).norm() > 1e-12) {
+    out.matrix = Eigen::Matrix4d::Identity();
+    out.matrix->topLeftCorner<3, 3>() = P;
+    out.matrix->topRightCorner<3, 1>() = (Mat3::Identity() - P) * (c + origin);
+  }
+  out.move = Vec3(at - c);
+  return out;
+}
+
+}  // namespace
+
+Motion moved(const Motion& before, const Transform& by, const Vec3& centre, const Vec3& origin) {
   Motion out = before;
-  const bool turns = by.degrees != 0;
   if (const std::vector<Vec3>& to = before.to.get(); !to.empty()) {
     std::vector<Vec3> targets;
     for (const Vec3& p : to) targets.push_back(by(p - origin) + origin);
@@ -268,20 +314,12 @@ Motion moved(const Motion& before, const RigidMotion& by, const Vec3& centre, co
     return out;
   }
   const Vec3 move = before.move.value_or(Vec3(0, 0, 0));
-  if (!turns) {
+  if (!by.turns() && !by.stretches()) {
     out.move = Vec3(move + by.move);
     return out;
   }
+  if (before.matrix || by.stretches()) return stretched(before, by, centre, origin);
   const Mat3 R = matrix_of(by.axis, by.degrees);
-  if (before.matrix) {
-    Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
-    T.topLeftCorner<3, 3>() = R;
-    const Vec3 pivot = by.pivot + origin;
-    T.topRightCorner<3, 1>() = R * (move - pivot) + pivot + by.move;
-    out.matrix = T * *before.matrix;
-    out.move.reset();
-    return out;
-  }
   // R (R1 (p - c) + c + m - pivot) + pivot + move = R R1 (p - c) + c + m', so the rotation keeps its own pivot c.
   Rotation rotate = before.rotate.value_or(Rotation{by.axis, 0, std::nullopt});
   const Vec3 c = rotate.about ? Vec3(*rotate.about - origin) : centre;
@@ -292,11 +330,7 @@ Motion moved(const Motion& before, const RigidMotion& by, const Vec3& centre, co
     rotate.axis = rotate.degrees == 0 ? by.axis : rotate.axis;
     rotate.degrees += rotate.degrees == 0 || same > 0 ? by.degrees : -by.degrees;
   } else {
-    const Eigen::AngleAxisd both(Mat3(R * matrix_of(rotate.axis, rotate.degrees)));
-    const Vec3 near = axis * rotate.degrees + by.axis.stableNormalized() * by.degrees;
-    const Rotation turned = nearest_turn(both, near, 1e-7);
-    rotate.axis = turned.axis;
-    rotate.degrees = turned.degrees;
+    rotate = turned(rotate, R, by.axis.stableNormalized() * by.degrees);
   }
   out.rotate = rotate;
   out.move = Vec3(R * (c + move - by.pivot) + by.pivot - c + by.move);

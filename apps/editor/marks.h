@@ -18,12 +18,16 @@ namespace sinew::editor {
 enum class Mark { Free, Fixed, Handle, Rigid, Stiffer, Softer };
 inline constexpr double stiffest = 256;  ///< factors of Stiffer and Softer stay within it and its inverse
 
-/// A rotation about `pivot`, then a move. World coordinates.
-struct RigidMotion {
+/// What a drag does: a rotation about `pivot`, a stretch about it, a move, in this order. World coordinates.
+struct Transform {
   Vec3 axis = Vec3::UnitZ();  ///< unit
   double degrees = 0;
   Vec3 pivot = Vec3::Zero();
   Vec3 move = Vec3::Zero();
+  Mat3 stretch = Mat3::Identity();  ///< symmetric, its eigenvalues (how many times as long) above 0
+
+  bool turns() const { return degrees != 0; }
+  bool stretches() const { return stretch != Mat3::Identity(); }
   Vec3 operator()(const Vec3& p) const;
 };
 
@@ -64,9 +68,10 @@ document::Layer without_handle(const document::Layer& layer, std::size_t handle)
 /// So the motion stays what it is when the handle loses points.
 document::Layer with_pivots(const document::Layer& layer, std::span<const Vec3> centres, const Vec3& origin);
 
-/// `before`, then `by`, as few members as can be: a move stays a move, turns about one axis add their degrees.
-/// `centre`: mean of the handle's points where the layer starts from, world; `origin`: the input's.
-document::Motion moved(const document::Motion& before, const RigidMotion& by, const Vec3& centre, const Vec3& origin);
+/// `before`, then `by`, as few members as can be: a move stays a move, turns about one axis add their degrees, and what
+/// is scaled has its turn as "rotate" and its stretch, symmetric, as "matrix": so both are interpolated as what they
+/// are. `centre`: mean of the handle's points where the layer starts from, world; `origin`: the input's.
+document::Motion moved(const document::Motion& before, const Transform& by, const Vec3& centre, const Vec3& origin);
 
 /// `motion`, whole turns added to its rotation: the one that ends where it does and is nearest to `turn` (axis times
 /// degrees). A rotation by whole turns alone is about `centre`, world.

@@ -165,7 +165,7 @@ void Mouse::move(const InputEvent& event) {
   }
   if (!left_down_ || !moved_) return;
   if (pressed_handle_) {
-    const GizmoKind kind = view.tool == Tool::Rotate ? GizmoKind::Rotate : GizmoKind::Translate;
+    const GizmoKind kind = view.tool == Tool::Rotate ? GizmoKind::Rotate : GizmoKind::Translate;  // a ball has no size
     view.mouse = pressed_at_;
     begin_manipulation(context_.session, view, kind, GizmoPart::Screen, false);
     view.mouse = at;

@@ -64,6 +64,10 @@ void draw_gizmo(Ui& ui, ImDrawList* list) {
     list->AddPolyline(points.data(), count, packed(color), stroke.closed ? ImDrawFlags_Closed : 0, width * scale());
     if (gizmo->kind == GizmoKind::Translate && !stroke.closed && !stroke.filled)
       arrow_head(list, points[points.size() - 2], points.back(), packed(color));
+    if (gizmo->kind == GizmoKind::Scale && !stroke.closed) {
+      const ImVec2 tip = points.back();
+      list->AddRectFilled({tip.x - px(5), tip.y - px(5)}, {tip.x + px(5), tip.y + px(5)}, packed(color), px(1));
+    }
   }
 }
 

@@ -290,7 +290,7 @@ class Session {
   /// False where there is no such handle. Ends a drag that runs.
   bool begin_drag(std::size_t handle);
   /// The motion since begin_drag, not since the last call. Asks the solver for an interactive answer.
-  void drag_to(const RigidMotion& motion);
+  void drag_to(const Transform& motion);
   /// One step of history (none where nothing moved); the final answer is asked for.
   void end_drag();
   void cancel_drag();

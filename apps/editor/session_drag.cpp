@@ -147,7 +147,7 @@ Session::Drag Session::drag_from_here() {
   return out;
 }
 
-void Session::drag_to(const RigidMotion& motion) {
+void Session::drag_to(const Transform& motion) {
   if (!drag_ || drag_->example) return;
   document::Motion& now = motion_at(drag_->now.layers[layer_], drag_->handle, frame_);
   const document::Motion wanted = moved(drag_->before, motion, drag_->centre, input_->origin);

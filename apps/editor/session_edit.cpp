@@ -176,12 +176,12 @@ document::Motion Session::motion_of_new_handle() {
   }
   if (most == 0) return fitted;
   document::Motion own = motion_now(of);
-  const std::optional<Vec3> turn = document::turn_of(own);
-  if (!turn || !own.rotate) return fitted;
-  if (most == points.size() && own.to.get().empty()) {  // part of a handle moves as it did
-    if (!own.rotate->about) own.rotate->about = handle_rest_centres()[of] + input_->origin;
+  if (most == points.size() && (own.rotate || own.matrix)) {  // part of a handle moves as it did
+    if (own.rotate && !own.rotate->about) own.rotate->about = handle_rest_centres()[of] + input_->origin;
     return own;
   }
+  const std::optional<Vec3> turn = document::turn_of(own);
+  if (!turn || !own.rotate) return fitted;
   const Vec3 centre = std::accumulate(from.begin(), from.end(), Vec3(0, 0, 0)) / static_cast<double>(from.size());
   return wound(fitted, *turn * (180 / std::numbers::pi), centre, input_->origin);
 }

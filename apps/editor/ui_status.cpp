@@ -94,9 +94,13 @@ std::vector<Group> hints(const Ui& ui) {
   const char* tools[] = {"click or drag to select",
                          "drag a handle",
                          "drag a handle",
+                         "drag a handle's axes",
                          "drag to select",
                          "draw around to select",
+                         "click corners",
                          "paint to select",
+                         "paint with a sphere",
+                         "click where a box or sphere is to be",
                          "draw where nothing is to pass"};
   out.push_back({{{tools[static_cast<std::size_t>(view.tool)], false}}, 1});
   out.push_back(key("adds", "Shift", 2));

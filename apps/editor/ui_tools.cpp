@@ -20,10 +20,11 @@ struct ToolRow {
   int tool = -1;  ///< of enum Tool; -1: a command that is done at once
 };
 
-constexpr std::array<ToolRow, 16> rows{
+constexpr std::array<ToolRow, 17> rows{
     {{"tool.select", icon::pointer, ToolRow::Tint::Plain, static_cast<int>(Tool::Select)},
      {"tool.move", icon::move, ToolRow::Tint::Plain, static_cast<int>(Tool::Move)},
      {"tool.rotate", icon::rotate, ToolRow::Tint::Plain, static_cast<int>(Tool::Rotate)},
+     {"tool.scale", icon::scale, ToolRow::Tint::Plain, static_cast<int>(Tool::Scale)},
      {"", ""},
      {"tool.box", icon::box, ToolRow::Tint::Plain, static_cast<int>(Tool::Box)},
      {"tool.lasso", icon::lasso, ToolRow::Tint::Plain, static_cast<int>(Tool::Lasso)},

@@ -7,12 +7,16 @@
 
 namespace sinew::editor {
 
+GizmoKind gizmo_kind(Tool tool) {
+  return tool == Tool::Rotate ? GizmoKind::Rotate : tool == Tool::Scale ? GizmoKind::Scale : GizmoKind::Translate;
+}
+
 std::optional<Gizmo> gizmo_of(Session& session, const View& view) {
   const std::optional<std::size_t> handle = session.chosen_handle();
   if (!handle) return std::nullopt;
   const HandleView chosen = session.handles()[*handle];
   Gizmo gizmo;
-  gizmo.kind = view.tool == Tool::Rotate ? GizmoKind::Rotate : GizmoKind::Translate;
+  gizmo.kind = gizmo_kind(view.tool);
   gizmo.centre = chosen.target;
   if (view.space == Space::Local) gizmo.axes = chosen.axes;
   return gizmo;

@@ -15,7 +15,7 @@
 namespace sinew::editor {
 
 /// Click is part of all of them: a press and release on one place.
-enum class Tool { Select, Move, Rotate, Box, Lasso, Brush, Cut };
+enum class Tool { Select, Move, Rotate, Scale, Box, Lasso, Polygon, Brush, Ball, Volume, Cut };
 enum class Space { World, Local };
 
 struct View {
@@ -44,13 +44,16 @@ struct View {
   bool show_onion = false;                          ///< ghosts of other frames
   int onion_frames = 2, onion_step = 2;             ///< so many before and after, so many frames apart
 
-  /// A drag by gizmo or by G and R that runs now.
+  /// A drag by gizmo or by G, R and S that runs now.
   std::optional<Manipulation> manipulation;
   /// Begun by keys: the mouse moves it without a button, a click confirms.
   bool modal = false;
 };
 
 class Session;
+
+/// That a tool shows.
+GizmoKind gizmo_kind(Tool tool);
 
 /// The gizmo of the chosen handle, as tool and space say; nothing where none is chosen.
 std::optional<Gizmo> gizmo_of(Session& session, const View& view);

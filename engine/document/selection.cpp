@@ -1,5 +1,6 @@
 #include "engine/document/selection.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -199,8 +200,14 @@ std::vector<Vec3> handle_places(const HandleEdit& handle, const Vec3& origin) {
   return out;
 }
 
+/// Whether a linear map stretches along axes, and neither turns nor mirrors.
+static bool stretches(const Mat3& A) {
+  return (A - A.transpose()).norm() <= 1e-12 * A.norm() && Eigen::LLT<Mat3>(A).info() == Eigen::Success;
+}
+
 std::optional<Vec3> turn_of(const Motion& motion) {
-  if (motion.matrix || !motion.to.get().empty()) return std::nullopt;
+  if (!motion.to.get().empty() || (motion.matrix && !stretches(motion.matrix->topLeftCorner<3, 3>())))
+    return std::nullopt;
   if (!motion.rotate) return Vec3(0, 0, 0);
   return motion.rotate->axis.stableNormalized() * (motion.rotate->degrees * (std::numbers::pi / 180));
 }

@@ -58,8 +58,8 @@ class Selector {
   std::unordered_map<std::string, std::vector<std::int64_t>> labels_;
 };
 
-/// How far a motion turns, where that is said: the rotation's axis times radians (Handle::turn); nothing where it only
-/// moves. A matrix and targets do not say it.
+/// How far a motion turns, where that is said: the rotation's axis times radians (Handle::turn); zero where it only
+/// moves or stretches (a symmetric matrix, positive definite). Any other matrix and targets do not say it.
 std::optional<Vec3> turn_of(const Motion& motion);
 
 /// Targets of points at `rest` (relative to `origin`) under a motion in the file's coordinates; relative to `origin`

@@ -55,14 +55,14 @@ double distance(std::span<const Vec3> a, std::span<const Vec3> b) {
   return out;
 }
 
-RigidMotion move_by(const Vec3& move) {
-  RigidMotion motion;
+Transform move_by(const Vec3& move) {
+  Transform motion;
   motion.move = move;
   return motion;
 }
 
-RigidMotion turn_by(const Vec3& axis, double degrees, const Vec3& pivot) {
-  RigidMotion motion;
+Transform turn_by(const Vec3& axis, double degrees, const Vec3& pivot) {
+  Transform motion;
   motion.axis = axis;
   motion.degrees = degrees;
   motion.pivot = pivot;
@@ -469,17 +469,18 @@ TEST(EditorMotion, DragsAddUp) {
   turned.rotate = document::Rotation{{0, 0, 2}, 30, std::nullopt};
   for (document::Motion motion : {document::Motion{}, matrix, given, turned}) {
     for (int i = 0; i < 20; ++i) {
-      RigidMotion by =
+      Transform by =
           turn_by(Vec3(x(random), x(random), x(random)).normalized(), 170 * x(random), {x(random), x(random), 1});
       by.move = {x(random), x(random), x(random)};
       if (i % 3 == 0) by.degrees = 0;
+      if (i % 4 == 1) by.stretch = Vec3(1.2, 0.9, 1).asDiagonal();
       const std::vector<Vec3> before = document::targets_of(motion, points, origin);
       motion = moved(motion, by, centre, origin);
       const std::vector<Vec3> after = document::targets_of(motion, points, origin);
       for (std::size_t k = 0; k < points.size(); ++k) EXPECT_LT((after[k] - by(before[k])).norm(), 1e-8);
     }
   }
-  const RigidMotion half = turn_by(Vec3::UnitY(), 120, {0, 0, 3});
+  const Transform half = turn_by(Vec3::UnitY(), 120, {0, 0, 3});
   const document::Motion far = moved(moved({}, half, centre, origin), half, centre, origin);
   ASSERT_TRUE(far.rotate);
   EXPECT_EQ(far.rotate->degrees, 240) << "turns about one axis are counted on";

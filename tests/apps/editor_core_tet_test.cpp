@@ -108,8 +108,8 @@ class EditorTet : public ::testing::Test {
   Session session{sinew::methods()};
 };
 
-RigidMotion turn_by(const Vec3& axis, double degrees, const Vec3& pivot) {
-  RigidMotion out;
+Transform turn_by(const Vec3& axis, double degrees, const Vec3& pivot) {
+  Transform out;
   out.axis = axis;
   out.degrees = degrees;
   out.pivot = pivot;
@@ -123,7 +123,7 @@ TEST_F(EditorTet, FollowsADragLiveAndEndsWhereTheCommandLineDoes) {
   const std::uint64_t before = session.bent_version();
   ASSERT_TRUE(session.begin_drag(0));
   for (int step = 1; step <= 3; ++step) {
-    RigidMotion motion;
+    Transform motion;
     motion.move = Vec3(0.1 * step, 0, 0);
     session.drag_to(motion);
     const std::uint64_t ticket = session.asked();
@@ -222,7 +222,7 @@ TEST_F(EditorTet, MarksRigidAndStiff) {
 
   // They steer the solve: a bend leaves the rigid part as it was.
   ASSERT_TRUE(session.begin_drag(0));
-  RigidMotion motion;
+  Transform motion;
   motion.move = Vec3(0.5, -0.2, 0);
   session.drag_to(motion);
   session.end_drag();

@@ -86,7 +86,7 @@ class EditorTime : public ::testing::Test {
   void drag(const Vec3& by) {
     ASSERT_TRUE(session.begin_drag(0));
     for (int step = 1; step <= 4; ++step) {
-      RigidMotion motion;
+      Transform motion;
       motion.move = by * (step / 4.0);
       session.drag_to(motion);
       session.poll();
@@ -258,7 +258,7 @@ TEST_F(EditorTime, ItPlaysAndADragStopsThat) {
   ASSERT_TRUE(session.begin_drag(0));
   EXPECT_FALSE(session.playing());
   const int frame = session.frame();
-  RigidMotion motion;
+  Transform motion;
   motion.move = Vec3(0, 0, 0.1);
   session.drag_to(motion);
   session.end_drag();
