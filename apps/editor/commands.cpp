@@ -21,6 +21,18 @@ bool selected(const Context& c) {
 bool chosen(const Context& c) {
   return c.session.chosen_handle().has_value() && !c.view.manipulation;
 }
+bool with_volume(const Context& c) {
+  return c.view.choosing && c.view.choosing->volume() != nullptr;
+}
+bool movable(const Context& c) {
+  return (c.session.chosen_handle() || with_volume(c)) && !c.view.manipulation;
+}
+bool turnable(const Context& c) {
+  return chosen(c) && !with_volume(c);
+}
+bool hides(const Context& c) {
+  return !c.session.hidden().empty();
+}
 bool moving(const Context& c) {
   return c.session.moves();
 }
@@ -137,7 +149,11 @@ void set_up(Context& c, gpu::UpAxis up) {
   glide_to(c.view, levelled(c.view.camera, up));
 }
 void set_brush(Context& c, double factor) {
-  c.view.brush_radius = c.preferences.brush_radius = std::clamp(c.view.brush_radius * factor, 2.0, 500.0);
+  const double diagonal = std::max(c.session.rest_bounds().diagonal(), 1e-300);
+  if (c.view.tool == Tool::Ball)
+    c.view.ball_radius = std::clamp(c.view.ball_radius * factor, 1e-4 * diagonal, diagonal);
+  else
+    c.view.brush_radius = c.preferences.brush_radius = std::clamp(c.view.brush_radius * factor, 2.0, 500.0);
 }
 void set_points(Context& c, double by) {
   c.view.point_size = c.preferences.point_size = std::clamp(c.view.point_size + by, 1.0, 16.0);
@@ -146,13 +162,21 @@ void toggle_depth(Context& c) {
   c.view.depth = c.view.depth == Depth::Through ? Depth::VisibleOnly : Depth::Through;
   c.preferences.through = c.view.depth == Depth::Through;
 }
+void choose_attribute(Context& c) {
+  if (!c.view.color_by.empty())
+    for (const std::string& name : range_choices(*c.session.input()))
+      if (name == c.view.color_by) return choose_by_attribute(c.session, c.view, name);
+  choose_by_attribute(c.session, c.view, c.view.up == gpu::UpAxis::Y ? "y" : "z");
+}
 void delete_something(Context& c) {
   if (c.session.chosen_handle()) c.session.delete_handle(*c.session.chosen_handle());
 }
 
 template <Tool tool>
 void take_tool(Context& c) {
+  confirm_choosing(c.view);
   c.view.tool = tool;
+  if (tool == Tool::Volume && !c.session.selection().empty()) choose_by_volume(c.session, c.view);
 }
 template <Tool tool>
 bool has_tool(const Context& c) {
@@ -203,6 +227,14 @@ const std::array table{
             [](C& c) { c.session.shrink_selection(); }},
     Command{"select.connected", "Connected", "Select", "L", "Select all that hangs together with the selection.",
             selected, [](C& c) { c.session.select_connected(); }},
+    Command{"select.attribute", "By attribute...", "Select", "", "Select a range of an attribute, by its histogram.",
+            open, choose_attribute},
+    Command{"select.hide", "Hide", "Select", "Ctrl+H", "Neither draw, pick nor select the selected points.", selected,
+            [](C& c) { c.session.hide_selection(); }, nullptr, true},
+    Command{"select.hide_others", "Hide others", "Select", "Shift+H", "Show the selected points alone.", selected,
+            [](C& c) { c.session.hide_unselected(); }},
+    Command{"select.show", "Show all", "Select", "Alt+H", "Show what was hidden.", hides,
+            [](C& c) { c.session.show_hidden(); }},
     Command{"select.handle", "Points of the handle", "Select", "", "Select the points of the chosen handle.", chosen,
             [](C& c) { c.session.select_handle(*c.session.chosen_handle()); }, nullptr, true},
     Command{"select.fixed", "Fixed points", "Select", "", "Select the points that stay.", layered,
@@ -226,8 +258,15 @@ const std::array table{
             true},
     Command{"tool.lasso", "Lasso", "Edit/Tool", "Q", "Select in a drawn outline.", always, take_tool<Tool::Lasso>,
             has_tool<Tool::Lasso>},
+    Command{"tool.polygon", "Polygon", "Edit/Tool", "P", "Select between corners that are clicked.", always,
+            take_tool<Tool::Polygon>, has_tool<Tool::Polygon>},
     Command{"tool.brush", "Brush", "Edit/Tool", "C", "Paint the selection.", always, take_tool<Tool::Brush>,
             has_tool<Tool::Brush>},
+    Command{"tool.ball", "Sphere brush", "Edit/Tool", "O", "Select in a sphere around the surface under the mouse.",
+            always, take_tool<Tool::Ball>, has_tool<Tool::Ball>},
+    Command{"tool.volume", "Box or sphere in space", "Edit/Tool", "Shift+O",
+            "Select in a box or sphere that is moved and sized.", open, take_tool<Tool::Volume>,
+            has_tool<Tool::Volume>},
     Command{"tool.cut", "Cut", "Edit/Tool", "Shift+C", "Draw a line that no influence of the chosen layer passes.",
             knows_cuts, take_tool<Tool::Cut>, has_tool<Tool::Cut>, false, why_not_cut},
     Command{"tool.smaller", "Smaller brush", "Edit/Tool", "[", "Paint with a smaller brush.", always,
@@ -247,13 +286,13 @@ const std::array table{
             can_be_stiff, [](C& c) { c.session.mark_selection(Mark::Softer); }, nullptr, false, why_not_stiff},
     Command{"mark.free", "Free", "Layer", "U", "The selected points are not marked in any way.", selected,
             [](C& c) { c.session.mark_selection(Mark::Free); }},
-    Command{"handle.move", "Move handle", "Layer", "G", "Move the chosen handle; X, Y, Z and numbers hold it.", chosen,
+    Command{"handle.move", "Move handle", "Layer", "G", "Move the chosen handle; X, Y, Z and numbers hold it.", movable,
             [](C& c) { begin_manipulation(c.session, c.view, GizmoKind::Translate, GizmoPart::Screen, true); }, nullptr,
             true},
     Command{"handle.rotate", "Rotate handle", "Layer", "R", "Turn the chosen handle; X, Y, Z and numbers hold it.",
-            chosen, [](C& c) { begin_manipulation(c.session, c.view, GizmoKind::Rotate, GizmoPart::Screen, true); }},
+            turnable, [](C& c) { begin_manipulation(c.session, c.view, GizmoKind::Rotate, GizmoPart::Screen, true); }},
     Command{"handle.scale", "Scale handle", "Layer", "S", "Scale the chosen handle; X, Y, Z and numbers hold it.",
-            chosen, [](C& c) { begin_manipulation(c.session, c.view, GizmoKind::Scale, GizmoPart::Screen, true); }},
+            movable, [](C& c) { begin_manipulation(c.session, c.view, GizmoKind::Scale, GizmoPart::Screen, true); }},
     Command{"handle.reset", "Reset handle", "Layer", "Alt+G", "Back to where the handle rests.", chosen,
             [](C& c) { c.session.reset_handle(*c.session.chosen_handle()); }},
     Command{"handle.delete", "Delete handle", "Layer", "Delete, Backspace", "The handle's points are free again.",

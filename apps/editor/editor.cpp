@@ -221,6 +221,8 @@ void Editor::show_new_input() {
                         1 - static_cast<double>((ui_.layout.top + ui_.layout.bottom) / ui_.layout.height)};
   gpu::look_from(view_.camera, "iso", view_.up);
   view_.camera = framed(view_.camera, session_.rest_bounds(), view_.size.x() / view_.size.y());
+  view_.ball_radius = 0.03 * session_.rest_bounds().diagonal();
+  view_.choosing.reset();
   view_.color_by.clear();
   view_.heat.reset();
   view_.color_range.reset();

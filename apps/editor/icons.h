@@ -12,6 +12,7 @@ inline constexpr const char* lasso = "\uf040";
 inline constexpr const char* brush = "\uf1fc";
 inline constexpr const char* polygon = "\uf247";
 inline constexpr const char* sphere = "\uf10c";
+inline constexpr const char* volume = "\uf1b3";
 inline constexpr const char* fixed = "\uf023";
 inline constexpr const char* handle = "\uf256";
 inline constexpr const char* rigid = "\uf1b2";

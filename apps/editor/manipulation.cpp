@@ -413,9 +413,10 @@ std::string Manipulation::text() const {
   std::string held;
   if (is_axis(part_)) held = std::string(1, names[column_of(part_)]) + " ";
   if (is_plane(part_)) held = std::string{names[(column_of(part_) + 1) % 3], names[(column_of(part_) + 2) % 3]} + " ";
+  if (gizmo_.kind == GizmoKind::Scale) held += "× ";
   if (!typed_.empty()) return fmt::format("{}[{}]{}", held, typed_, gizmo_.kind == GizmoKind::Rotate ? "°" : "");
   if (gizmo_.kind == GizmoKind::Rotate) return fmt::format("{}{:.1f}°", held, motion_.degrees);
-  if (gizmo_.kind == GizmoKind::Scale) return fmt::format("{}× {:.3g}", held, seen_ ? factor() : 1);
+  if (gizmo_.kind == GizmoKind::Scale) return fmt::format("{}{:.3g}", held, seen_ ? factor() : 1);
   const Vec3 along = gizmo_.axes.transpose() * motion_.move;
   if (is_axis(part_)) return fmt::format("{}{:.4g}", held, along[column_of(part_)]);
   return fmt::format("{}{:.4g}, {:.4g}, {:.4g}", held, motion_.move.x(), motion_.move.y(), motion_.move.z());

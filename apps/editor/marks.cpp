@@ -423,7 +423,7 @@ void bend_all(const Shape& input, std::span<const LayerResult> layers, std::span
   if (in.data() != out.data()) std::copy(in.begin(), in.end(), out.begin());
 }
 
-std::vector<std::uint8_t> mark_bits(const LayerPoints& points, const PointSet& selection) {
+std::vector<std::uint8_t> mark_bits(const LayerPoints& points, const PointSet& selection, const PointSet& hidden) {
   std::vector<std::uint8_t> out(selection.size(), 0);
   const auto mark = [&](const std::vector<std::vector<Index>>& lists, unsigned bit) {
     for (const std::vector<Index>& list : lists)
@@ -433,6 +433,7 @@ std::vector<std::uint8_t> mark_bits(const LayerPoints& points, const PointSet& s
   mark(points.handles, gpu::shared::mark_handle);
   mark(points.rigid, gpu::shared::mark_rigid);
   selection.each([&](std::size_t i) { out[i] = static_cast<std::uint8_t>(out[i] | gpu::shared::mark_selected); });
+  hidden.each([&](std::size_t i) { out[i] = static_cast<std::uint8_t>(out[i] | gpu::shared::mark_hidden); });
   return out;
 }
 

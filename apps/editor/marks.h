@@ -93,8 +93,8 @@ Mat3 bent_matrix(std::span<const document::LayerResult> layers, const Vec3& rest
 /// All of them; out: n.
 void bend_all(const Shape& input, std::span<const document::LayerResult> layers, std::span<Vec3> out);
 
-/// Bits of shared.h (mark_handle 1, mark_fixed 2, mark_rigid 4, mark_selected 8) of each point; n.
-std::vector<std::uint8_t> mark_bits(const LayerPoints& points, const PointSet& selection);
+/// Bits of shared.h (mark_handle 1, mark_fixed 2, mark_rigid 4, mark_selected 8, mark_hidden 16) of each point; n.
+std::vector<std::uint8_t> mark_bits(const LayerPoints& points, const PointSet& selection, const PointSet& hidden);
 /// How stiff the material around each point is; n, or none where all of it is as it was.
 std::vector<float> stiffness_factors(const document::Layer& layer, const LayerPoints& points, std::size_t n);
 

@@ -26,12 +26,14 @@ int modifier_of(int key) {
 }
 
 bool draws_strokes(Tool tool) {
-  return tool == Tool::Box || tool == Tool::Lasso || tool == Tool::Brush || tool == Tool::Cut;
+  return tool == Tool::Box || tool == Tool::Lasso || tool == Tool::Polygon || tool == Tool::Brush ||
+         tool == Tool::Ball || tool == Tool::Cut;
 }
 
 }  // namespace
 
 void Mouse::handle(const InputEvent& event, bool over_ui) {
+  if (in_polygon() && (context_.view.tool != Tool::Polygon || !context_.session.has_input())) stroke_.reset();
   switch (event.what) {
     case InputEvent::What::Move: move(event); break;
     case InputEvent::What::Button:
@@ -64,12 +66,56 @@ bool Mouse::press(int key, int modifiers) {
     finish_manipulation();
     return true;
   }
+  if (in_polygon() && press_in_polygon(key)) return true;
   if (key == key::escape && stroke_) {
     stroke_.reset();
     left_down_ = false;
     return true;
   }
-  return false;
+  return view.choosing && press_while_choosing(key);
+}
+
+bool Mouse::press_in_polygon(int key) {
+  if (key == key::enter || key == key::pad_enter) {
+    end_stroke();
+    stroke_.reset();
+  } else if (key == key::backspace) {
+    stroke_->points.pop_back();
+    if (stroke_->points.empty()) stroke_.reset();
+  } else if (key == key::escape) {
+    stroke_.reset();
+  } else {
+    return false;
+  }
+  return true;
+}
+
+bool Mouse::press_while_choosing(int key) {
+  if (key == key::escape)
+    cancel_choosing(context_.session, context_.view);
+  else if (key == key::enter || key == key::pad_enter)
+    confirm_choosing(context_.view);
+  else
+    return false;
+  return true;
+}
+
+bool Mouse::closes_polygon() const {
+  return in_polygon() && stroke_->points.size() > 2 && (last_ - stroke_->points.front()).norm() < 2 * slack();
+}
+
+void Mouse::add_corner() {
+  std::vector<Eigen::Vector2d>& corners = stroke_->points;
+  const bool again = now() - last_click_ < double_click_seconds && (last_ - corners.back()).norm() < slack();
+  last_click_ = now();
+  if (!again && !closes_polygon()) {
+    corners.push_back(last_);
+    return;
+  }
+  end_stroke();
+  stroke_.reset();
+  left_down_ = false;  // letting go is no click
+  last_click_ = -1;
 }
 
 void Mouse::press_button(const InputEvent& event) {
@@ -87,7 +133,8 @@ void Mouse::press_button(const InputEvent& event) {
     return;
   }
   if (!context_.session.has_input()) return;
-  const bool wanted = draws_strokes(view.tool) || hovered_part() != GizmoPart::None || hovered_handle();
+  const bool wanted =
+      draws_strokes(view.tool) || view.tool == Tool::Volume || hovered_part() != GizmoPart::None || hovered_handle();
   const NavigationAction action = navigation_action(context_.preferences.navigation, button, modifiers_, !wanted);
   if (action != NavigationAction::None) {
     view.glide.stop();
@@ -103,9 +150,13 @@ void Mouse::press_button(const InputEvent& event) {
 void Mouse::press_left(int modifiers) {
   View& view = context_.view;
   left_down_ = true;
+  if (in_polygon()) {
+    add_corner();
+    return;
+  }
   pressed_handle_ = hovered_handle();
   const GizmoPart part = hovered_part();
-  if (part != GizmoPart::None && context_.session.chosen_handle()) {
+  if (part != GizmoPart::None) {
     begin_manipulation(context_.session, view, gizmo()->kind, part, false);
     return;
   }
@@ -113,12 +164,16 @@ void Mouse::press_left(int modifiers) {
     context_.session.choose_handle(pressed_handle_);
     return;
   }
+  if (view.choosing || view.tool == Tool::Volume) return;
   Stroke stroke;
   stroke.tool = draws_strokes(view.tool) ? view.tool : Tool::Box;
   stroke.mode = select_mode(modifiers);
   stroke.points = {last_};
   stroke_ = std::move(stroke);
   if (stroke_->tool == Tool::Brush) brush(last_, last_);
+  ball_at_.reset();
+  if (stroke_->tool == Tool::Ball) paint_ball();
+  last_click_ = stroke_->tool == Tool::Polygon ? now() : last_click_;
 }
 
 void Mouse::release_button(const InputEvent& event) {
@@ -132,6 +187,7 @@ void Mouse::release_button(const InputEvent& event) {
   }
   if (button != MouseButton::Left || !left_down_) return;
   left_down_ = false;
+  if (in_polygon()) return;
   if (view.manipulation && !view.modal) {
     view.manipulation->confirm();
     finish_manipulation();
@@ -163,7 +219,7 @@ void Mouse::move(const InputEvent& event) {
     update_manipulation(context_.session, view, modifiers_);
     return;
   }
-  if (!left_down_ || !moved_) return;
+  if (!left_down_ || !moved_ || in_polygon()) return;
   if (pressed_handle_) {
     const GizmoKind kind = view.tool == Tool::Rotate ? GizmoKind::Rotate : GizmoKind::Translate;  // a ball has no size
     view.mouse = pressed_at_;
@@ -173,6 +229,7 @@ void Mouse::move(const InputEvent& event) {
     update_manipulation(context_.session, view, modifiers_);
   } else if (stroke_) {
     if (stroke_->tool == Tool::Brush) brush(at - step, at);
+    if (stroke_->tool == Tool::Ball) paint_ball();
     if (stroke_->tool == Tool::Box && stroke_->points.size() == 2) stroke_->points.pop_back();
     stroke_->points.push_back(at);
   }
@@ -197,8 +254,14 @@ void Mouse::click(int modifiers) {
     double_click();
     return;
   }
-  if (pressed_handle_ || (stroke_ && stroke_->tool == Tool::Brush)) return;
+  if (pressed_handle_ || (stroke_ && (stroke_->tool == Tool::Brush || stroke_->tool == Tool::Ball))) return;
   Session& session = context_.session;
+  if (context_.view.choosing || context_.view.tool == Tool::Volume) {
+    const bool placed = context_.view.tool == Tool::Volume;
+    if (const std::optional<Vec3> at = placed ? point_under(last_) : std::nullopt)
+      choose_by_volume(session, context_.view, at);
+    return;
+  }
   const SelectMode mode = select_mode(modifiers);
   PointSet touched(session.input()->size());
   if (const std::optional<Index> point = click_point(screen(), last_, 2 * slack())) {
@@ -224,8 +287,8 @@ void Mouse::end_stroke() {
   const Depth depth = context_.view.depth;
   if (stroke_->tool == Tool::Box && stroke_->points.size() == 2)
     session.select(in_box(screen(), stroke_->points[0], stroke_->points[1], depth), stroke_->mode);
-  else if (stroke_->tool == Tool::Lasso && stroke_->points.size() > 2)
-    session.select(in_polygon(screen(), stroke_->points, depth), stroke_->mode);
+  else if ((stroke_->tool == Tool::Lasso || in_polygon()) && stroke_->points.size() > 2)
+    session.select(editor::in_polygon(screen(), stroke_->points, depth), stroke_->mode);
   else if (stroke_->tool == Tool::Cut && stroke_->points.size() > 1)
     cut();
 }
@@ -255,7 +318,31 @@ void Mouse::brush(const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
   if (stroke_->mode == SelectMode::Replace) stroke_->mode = SelectMode::Add;
 }
 
+/// From the last place of the surface to the one under the mouse; the first dab replaces as that of brush() does.
+void Mouse::paint_ball() {
+  Session& session = context_.session;
+  const std::optional<Vec3> at = point_under(last_);
+  PointSet touched(session.input()->size());
+  if (at) {
+    const double radius = context_.view.ball_radius;
+    const bool near = ball_at_ && (*ball_at_ - *at).norm() < 4 * radius;  // else the mouse left the surface between
+    touched = in_capsule(session.bent_positions(), near ? *ball_at_ : *at, *at, radius);
+    if (context_.view.depth == Depth::VisibleOnly)
+      touched = intersected(touched, screen().visible({{0, 0}, context_.view.size}));
+  }
+  ball_at_ = at;
+  session.select(touched, stroke_->mode);
+  if (stroke_->mode == SelectMode::Replace) stroke_->mode = SelectMode::Add;
+}
+
+std::optional<Vec3> Mouse::ball() {
+  if (context_.view.tool != Tool::Ball || !context_.session.has_input() || navigating() || dragging())
+    return std::nullopt;
+  return point_under(last_);
+}
+
 const ScreenPoints& Mouse::screen() {
+  screen_.set_hidden(context_.session.hidden());
   screen_.update(context_.view.camera, context_.view.size, context_.session.bent_positions(),
                  context_.session.bent_version());
   return screen_;

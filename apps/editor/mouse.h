@@ -22,15 +22,22 @@ class Mouse {
   bool navigating() const { return navigation_ != NavigationAction::None; }
   bool stroking() const { return stroke_.has_value(); }
   bool dragging() const { return context_.view.manipulation.has_value(); }
-  bool busy() const { return navigating() || stroking() || dragging(); }
+  /// The mouse is the viewport's wherever it goes; not between the clicks of a polygon.
+  bool busy() const { return navigating() || (stroking() && !in_polygon()) || dragging(); }
 
-  /// A stroke of a selection tool that is being drawn: corner and opposite, or the way of the mouse.
+  /// A stroke of a selection tool that is being drawn: corner and opposite, the way of the mouse, or the corners of a
+  /// polygon so far.
   struct Stroke {
     Tool tool = Tool::Box;
     SelectMode mode = SelectMode::Replace;
     std::vector<Eigen::Vector2d> points;
   };
   const std::optional<Stroke>& stroke() const { return stroke_; }
+  bool in_polygon() const { return stroke_ && stroke_->tool == Tool::Polygon; }
+  /// A click here closes the polygon.
+  bool closes_polygon() const;
+  /// The middle of the sphere brush: the surface under the mouse.
+  std::optional<Vec3> ball();
 
   /// The gizmo of the chosen handle, where there is one, in the pixels of this display.
   std::optional<Gizmo> gizmo() const;
@@ -50,6 +57,10 @@ class Mouse {
   void end_stroke();
   void cut();
   void brush(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
+  void paint_ball();
+  void add_corner();
+  bool press_in_polygon(int key);
+  bool press_while_choosing(int key);
   const ScreenPoints& screen();
   std::optional<Vec3> point_under(const Eigen::Vector2d& at);
   std::vector<Vec3> balls() const;
@@ -62,6 +73,7 @@ class Mouse {
   std::optional<Vec3> wheel_under_;
   Eigen::Vector2d wheel_at_{-1, -1};
   std::optional<Stroke> stroke_;
+  std::optional<Vec3> ball_at_;  ///< of the stroke of the sphere brush, last
   bool left_down_ = false, moved_ = false;
   Eigen::Vector2d pressed_at_{0, 0}, last_{0, 0};
   int modifiers_ = 0;

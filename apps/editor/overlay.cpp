@@ -107,7 +107,8 @@ void draw_manipulation(Ui& ui, ImDrawList* list) {
 
 void draw_stroke(Ui& ui, ImDrawList* list) {
   const std::optional<Mouse::Stroke>& stroke = ui.mouse.stroke();
-  if (!stroke || stroke->tool == Tool::Brush || stroke->points.size() < 2) return;
+  const bool drawn = stroke && (stroke->tool == Tool::Box || stroke->tool == Tool::Lasso || stroke->tool == Tool::Cut);
+  if (!drawn || stroke->points.size() < 2) return;
   const ImU32 line = packed(theme().accent), fill = packed(theme().accent, 0.12f);
   if (stroke->tool == Tool::Box) {
     const ImVec2 a = screen(stroke->points[0]), b = screen(stroke->points[1]);
@@ -152,8 +153,10 @@ void show_overlay(Ui& ui) {
   draw_manipulation(ui, list);
   draw_stroke(ui, list);
   draw_brush(ui, list);
+  draw_selecting(ui, list);
   list->PopClipRect();
-  if (ui.context.session.has_input()) show_axes(ui);
+  const ImVec4 panel = choosing_panel(ui);  // that may need their room
+  if (ui.context.session.has_input() && !(panel.z > 0 && panel.y < ui.layout.top + px(88))) show_axes(ui);
 }
 
 void show_axes(Ui& ui) {

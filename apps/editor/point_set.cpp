@@ -6,31 +6,11 @@
 
 #include "apps/editor/keys.h"
 #include "engine/geometry/nearest.h"
-#include "engine/geometry/parallel.h"
 #include "engine/geometry/topology.h"
 
 namespace sinew::editor {
 
 namespace {
-
-constexpr std::size_t word_block = 256;  // 16,384 points
-
-/// The set of the points i for which `in(i)` holds.
-template <class In>
-PointSet set_where(std::size_t n, const In& in) {
-  PointSet out(n);
-  const std::span<std::uint64_t> words = out.words();
-  parallel_for(words.size(), word_block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t w = begin; w < end; ++w) {
-      std::uint64_t bits = 0;
-      const std::size_t last = std::min<std::size_t>(64, n - 64 * w);
-      for (std::size_t b = 0; b < last; ++b) bits |= static_cast<std::uint64_t>(in(64 * w + b)) << b;
-      words[w] = bits;
-    }
-  });
-  out.recount();
-  return out;
-}
 
 std::span<const Index> neighbours_of(const Neighbourhood& neighbourhood, std::size_t i) {
   return std::span(neighbourhood.neighbours)

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/geometry/parallel.h"
 #include "engine/geometry/shape.h"
 
 namespace sinew::editor {
@@ -46,6 +47,24 @@ class PointSet {
   std::size_t size_ = 0, count_ = 0;
   std::vector<std::uint64_t> words_;
 };
+
+/// The set of the points i of n for which `in(i)` holds, which is asked on several threads.
+template <class In>
+PointSet set_where(std::size_t n, const In& in) {
+  constexpr std::size_t word_block = 256;  // 16,384 points
+  PointSet out(n);
+  const std::span<std::uint64_t> words = out.words();
+  parallel_for(words.size(), word_block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t w = begin; w < end; ++w) {
+      std::uint64_t bits = 0;
+      const std::size_t last = n - 64 * w < 64 ? n - 64 * w : 64;
+      for (std::size_t b = 0; b < last; ++b) bits |= static_cast<std::uint64_t>(in(64 * w + b)) << b;
+      words[w] = bits;
+    }
+  });
+  out.recount();
+  return out;
+}
 
 /// How what a tool touches changes the selection: alone, with Shift, with Ctrl.
 enum class SelectMode { Replace, Add, Remove };

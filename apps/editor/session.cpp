@@ -158,7 +158,7 @@ std::span<const Vec3> Session::bent_positions() {
 
 const std::vector<std::uint8_t>& Session::point_marks() {
   if (!marks_ready_) {
-    marks_ = mark_bits(layer_points(), selection_);
+    marks_ = mark_bits(layer_points(), selection_, hidden_);
     marks_ready_ = true;
   }
   return marks_;
@@ -170,7 +170,10 @@ std::vector<float> Session::point_stiffness() {
 }
 
 Bounds Session::bent_bounds() {
-  return bounds_of(bent_positions());
+  if (hidden_.empty()) return bounds_of(bent_positions());
+  Bounds out;
+  selectable().each([&, positions = bent_positions()](std::size_t i) { out.add(positions[i]); });
+  return out;
 }
 
 Bounds Session::selection_bounds() {

@@ -237,6 +237,12 @@ class Session {
   void grow_selection();
   void shrink_selection();
   void select_connected();
+  /// Hidden points are neither drawn, picked nor selected, and are bent all the same. No part of the project; other
+  /// points (another shape, the next frame of a stream) are all shown.
+  const PointSet& hidden() const { return hidden_; }
+  void hide_selection();
+  void hide_unselected();
+  void show_hidden();
   /// The points of a handle, of the fixed, of all rigid groups, of what is stiffer or softer.
   void select_handle(std::size_t handle);
   void select_fixed();
@@ -382,6 +388,8 @@ class Session {
   const std::vector<Vec3>& handle_rest_centres();
   document::Layer standard_layer() const;
   void selection_changed();
+  PointSet selectable() const;
+  void hide(const PointSet& points);
   void select_points(const std::vector<std::vector<Index>>& lists);
   document::Motion motion_of_new_handle();
   bool refuse(const std::function<void()>& check);
@@ -409,7 +417,7 @@ class Session {
   std::vector<std::string> lost_;
   std::size_t layer_ = 0;
   std::optional<std::size_t> handle_;
-  PointSet selection_, finite_;
+  PointSet selection_, finite_, hidden_;
   std::vector<Notice> notices_;
   Changed changed_;
 

@@ -76,14 +76,14 @@ void Session::selection_changed() {
 
 void Session::select(const PointSet& touched, SelectMode mode) {
   if (!has_input() || touched.size() != selection_.size()) return;  // of a shape that is gone
-  // Points that are not finite are nowhere: nothing touches them but a caller's mistake.
-  selection_ = intersected(combined(selection_, touched, mode), finite_);
+  // Points that are not finite are nowhere, and hidden ones are left alone by all that reaches through.
+  selection_ = intersected(combined(selection_, touched, mode), selectable());
   selection_changed();
 }
 
 void Session::select_all() {
   if (!has_input()) return;
-  selection_ = finite_;
+  selection_ = selectable();
   selection_changed();
 }
 
@@ -95,7 +95,7 @@ void Session::select_none() {
 
 void Session::invert_selection() {
   if (!has_input()) return;
-  selection_ = inverted(selection_, finite_);
+  selection_ = inverted(selection_, selectable());
   selection_changed();
 }
 
@@ -111,7 +111,7 @@ void Session::with_neighbourhood(std::function<void()> then) {
 
 void Session::grow_selection() {
   with_neighbourhood([this] {
-    selection_ = grown(selection_, *neighbourhood_);
+    selection_ = intersected(grown(selection_, *neighbourhood_), selectable());
     selection_changed();
   });
 }
@@ -125,14 +125,14 @@ void Session::shrink_selection() {
 
 void Session::select_connected() {
   with_neighbourhood([this] {
-    selection_ = connected(selection_, *neighbourhood_);
+    selection_ = intersected(connected(selection_, *neighbourhood_), selectable());
     selection_changed();
   });
 }
 
 void Session::select_handle(std::size_t handle) {
   if (!has_input() || handle >= layer_points().handles.size()) return;
-  selection_ = PointSet(input_->size(), layer_points().handles[handle]);
+  selection_ = intersected(PointSet(input_->size(), layer_points().handles[handle]), selectable());
   selection_changed();
 }
 
@@ -140,6 +140,7 @@ void Session::select_points(const std::vector<std::vector<Index>>& lists) {
   selection_.clear();
   for (const std::vector<Index>& points : lists)
     selection_ = combined(selection_, PointSet(input_->size(), points), SelectMode::Add);
+  selection_ = intersected(selection_, selectable());
   selection_changed();
 }
 

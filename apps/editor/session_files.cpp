@@ -178,7 +178,7 @@ void Session::show(Opened opened) {
   edit_path_ = std::move(opened.edit_path);
   bounds_ = opened.bounds;
   finite_ = std::move(opened.finite);
-  selection_ = PointSet(input_->size());
+  selection_ = hidden_ = PointSet(input_->size());
   selector_ = std::move(opened.selector);
   history_ = opened.journal ? history_of(opened.journal->content()) : document::History(opened.project);
   saved_ = opened.on_disk ? opened.project : document::Project{};
@@ -225,7 +225,7 @@ void Session::close() {
   lost_.clear();
   bounds_ = {};
   finite_ = {};
-  selection_ = {};
+  selection_ = hidden_ = {};
   history_ = document::History(document::Project{});
   saved_ = {};
   layer_ = 0;

@@ -121,7 +121,7 @@ void Session::show_frame(document::SolveAnswer answer) {
     changed_.frame = true;
     bent_ready_ = false;
     if (!same_points) {
-      selection_ = PointSet(input_->size());
+      selection_ = hidden_ = PointSet(input_->size());
       finite_ = finite_points(input_->positions);
       selector_ = std::make_shared<document::Selector>(input_);
       neighbourhood_.reset();

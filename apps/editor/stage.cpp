@@ -107,7 +107,7 @@ void Stage::take_solid(Session& session, const View& view) {
     const Index i = structure.points[v];
     if (i >= marks.size()) continue;
     if (!stiffness.empty()) colors[v] = gpu::stiffness_color(colors[v], static_cast<double>(stiffness[i]));
-    colors[v].marks = static_cast<std::uint8_t>(marks[i] & ~gpu::shared::mark_selected);
+    colors[v].marks = static_cast<std::uint8_t>(marks[i] & ~(gpu::shared::mark_selected | gpu::shared::mark_hidden));
   }
   solid_ = gpu::create_solid(device_, solid_faces_, solid_at_, colors);
 }
@@ -138,11 +138,13 @@ void Stage::bend_splats(Session& session) {
       shape = std::make_shared<const Shape>(skin(*shape, *layer.weights, *layer.pose));
   splats_ = gpu::create_splats(*shape);
   splat_harmonics_ = splats_->harmonics;
+  splat_opacities_ = splats_->opacities;
 }
 
 /// Marks over the splats' own colours; an attribute that they are coloured by covers those.
 void Stage::color_splats(Session& session) {
   splats_->harmonics = splat_harmonics_;
+  splats_->opacities = splat_opacities_;
   const gpu::Look& look = theme().look;
   const auto mix = [&](std::size_t i, int r, int g, int b, float part) {
     gpu::tint(*splats_, i, Eigen::Vector3i(r, g, b).cast<float>() / 255, part);
@@ -154,6 +156,7 @@ void Stage::color_splats(Session& session) {
     const bool changed = !stiffness.empty() && stiffness[i] != 1;
     if (changed) color = gpu::stiffness_color(color, static_cast<double>(stiffness[i]));
     if (changed || colored_) mix(i, color.r, color.g, color.b, 1);
+    if ((marks[i] & gpu::shared::mark_hidden) != 0) splats_->opacities[i] = NAN;  // not drawn
     // A selected splat's mark is seen through.
     const std::pair<unsigned, gpu::Color> tints[] = {{gpu::shared::mark_selected, look.outline},
                                                      {gpu::shared::mark_handle, look.handle},

@@ -63,6 +63,7 @@ class Stage {
   gpu::Triangles triangles_;
   std::optional<gpu::Splats> splats_;             ///< bent, with marks; drawn in place of the points
   std::vector<Eigen::Vector3f> splat_harmonics_;  ///< of splats_, without marks
+  std::vector<float> splat_opacities_;            ///< of splats_, hidden ones too
   bool only_moved_ = false;                       ///< splats_ have their new centres and their old covariances
   Painter painter_;
   bool colored_ = false;  ///< by an attribute or a heat map

@@ -168,6 +168,12 @@ void ScreenPoints::set_visible_ids(VisibleIds ids) {
   splatted_ = false;
 }
 
+void ScreenPoints::set_hidden(const PointSet& hidden) {
+  if (hidden == hidden_) return;
+  hidden_ = hidden;
+  projected_ = false;
+}
+
 void ScreenPoints::update(const gpu::Camera& camera, const Eigen::Vector2d& size, std::span<const Vec3> positions,
                           std::uint64_t version) {
   if (projected_ && version == version_ && size == size_ && same_view(camera, camera_) && positions.size() == x_.size())
@@ -189,13 +195,14 @@ void ScreenPoints::update(const gpu::Camera& camera, const Eigen::Vector2d& size
   const Eigen::RowVector4f px = (0.5 * size.x() * (clip.row(0) + clip.row(3))).cast<float>();
   const Eigen::RowVector4f py = (0.5 * size.y() * (clip.row(1) + clip.row(3))).cast<float>();
   const Eigen::RowVector4f pw = clip.row(3).cast<float>(), pz = (-view.row(2)).cast<float>();
+  const bool hides = !hidden_.empty() && hidden_.size() == positions.size();
   parallel_for(positions.size(), 64 * word_block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Eigen::Vector3f d = (positions[i] - camera.target).cast<float>();
       const float w = pw[0] * d[0] + pw[1] * d[1] + pw[2] * d[2] + pw[3];
       const float x = px[0] * d[0] + px[1] * d[1] + px[2] * d[2] + px[3];
       const float y = py[0] * d[0] + py[1] * d[1] + py[2] * d[2] + py[3];
-      const bool before = w > 0;
+      const bool before = w > 0 && !(hides && hidden_[i]);
       x_[i] = before ? x / w : nowhere;
       y_[i] = before ? y / w : nowhere;
       depth_[i] = pz[0] * d[0] + pz[1] * d[1] + pz[2] * d[2] + pz[3];

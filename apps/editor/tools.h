@@ -37,6 +37,9 @@ class ScreenPoints {
   void update(const gpu::Camera& camera, const Eigen::Vector2d& size, std::span<const Vec3> positions,
               std::uint64_t version);
 
+  /// Points that are nowhere.
+  void set_hidden(const PointSet& hidden);
+
   /// Source of visibility; empty: the depth picture of the CPU.
   void set_visible_ids(VisibleIds ids);
 
@@ -63,6 +66,7 @@ class ScreenPoints {
   std::uint64_t version_ = 0;
   bool projected_ = false;
   std::vector<float> x_, y_, depth_;
+  PointSet hidden_;
   VisibleIds ids_;
   // Found when a tool first asks for it after a change.
   mutable bool splatted_ = false;

@@ -98,14 +98,18 @@ Layout layout_of(const Ui& ui, float width, float height);
 void show_ui(Ui& ui);
 
 void show_menu(Ui& ui);
-void show_tools(Ui& ui);     ///< tool bar at the left, switches at the top
-void show_column(Ui& ui);    ///< scene, layer, marks, show
-void show_motion(Ui& ui);    ///< of the chosen layer: rows of its settings
-void show_examples(Ui& ui);  ///< of the chosen layer: a row each, with its weight
+void show_tools(Ui& ui);          ///< tool bar at the left, switches at the top
+float tools_right(const Ui& ui);  ///< where the room beside the tool bar begins, pixels
+void show_column(Ui& ui);         ///< scene, layer, marks, show
+void show_motion(Ui& ui);         ///< of the chosen layer: rows of its settings
+void show_examples(Ui& ui);       ///< of the chosen layer: a row each, with its weight
 void show_status(Ui& ui);
 void show_timeline(Ui& ui);           ///< of what moves: buttons, frame, keys
 float timeline_height(const Ui& ui);  ///< pixels; 0 for a still
 void show_start(Ui& ui);              ///< while nothing is open
+void show_choosing(Ui& ui);           ///< panel of the box, sphere or range that selects now
+ImVec4 choosing_panel(const Ui& ui);  ///< its left, top, width and height, pixels; nothing where it is not shown
+void show_residuals(Ui& ui);          ///< table of how far handles are from their targets
 void show_job(Ui& ui);
 void show_toasts(Ui& ui);
 void show_history(Ui& ui);
@@ -118,6 +122,9 @@ void show_keymap(Ui& ui);
 void show_dialogs(Ui& ui);  ///< about, settings, navigation
 /// Gizmo, axes, lasso, brush, measures: over the scene, below the panels.
 void show_overlay(Ui& ui);
+
+/// The polygon, the ball of the sphere brush, the volume that selects; and a part of show_overlay.
+void draw_selecting(Ui& ui, ImDrawList* list);
 
 /// "1,234,567".
 std::string grouped(std::size_t number);

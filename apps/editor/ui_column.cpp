@@ -147,15 +147,8 @@ void show_scene(Ui& ui) {
   for (std::size_t i = 0; i < session.project().layers.size(); ++i) show_layer(ui, i);
 }
 
-/// Fields are 20 high and 4 apart: rows of 24.
-void push_fields() {
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), std::floor(0.5f * (px(20) - ImGui::GetFontSize()))));
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(8), px(4)));
-}
-
-void pop_fields() {
-  ImGui::PopStyleVar(2);
-}
+using widget::pop_fields;
+using widget::push_fields;
 
 void show_setting(Ui& ui, std::size_t layer, const Setting& setting) {
   Session& session = ui.context.session;
@@ -284,6 +277,9 @@ void show_marks(Ui& ui) {
   if (mark_row("selected", ImVec4(1, 0.82f, 0.54f, 1), "Selected",
                selected == 0 ? "none" : grouped(selected) + " points", false, "Click to select nothing"))
     session.select_none();
+  if (const std::size_t hidden = session.hidden().count(); hidden > 0)
+    if (mark_row("hidden", theme().faint, "Hidden", grouped(hidden) + " points", false, "Click to show them"))
+      session.show_hidden();
 }
 
 /// Axis and place of the plane that cuts the tets.

@@ -57,6 +57,8 @@ std::vector<Group> figures(const Ui& ui) {
                   {fmt::format("{:.1f}", figures.milliseconds), true},
                   {" ms", false}},
                  0});
+  if (figures.build_seconds > 0)
+    out.push_back({{{"prepared in ", false}, {fmt::format("{:.2f}", figures.build_seconds), true}, {" s", false}}, 4});
   out.push_back({{{"residual ", false}, {fmt::format("{:.1e}", figures.residual), true}}, 3});
   out.push_back({{{"max stretch ", false}, {fmt::format("{:+.1f} %", 100 * figures.max_stretch), true}}, 2});
   out.push_back({{{"moved ", false},
@@ -84,6 +86,22 @@ std::vector<Group> hints(const Ui& ui) {
     out.push_back(key("precise", "Shift", 2));
     out.push_back(key("snap", "Ctrl", 3));
     out.push_back(key("cancel", "Esc", 1));
+    return out;
+  }
+  if (ui.mouse.in_polygon()) {
+    out.push_back({{{"click corners", false}}, 0});
+    out.push_back(key("closes", "Enter", 1));
+    out.push_back(key("takes a corner back", "Backspace", 2));
+    out.push_back(key("cancel", "Esc", 1));
+    return out;
+  }
+  if (view.choosing) {
+    if (view.choosing->volume() != nullptr) {
+      out.push_back(key("move", "G", 1));
+      out.push_back(key("size", "S", 1));
+    }
+    out.push_back(key("done", "Enter", 0));
+    out.push_back(key("cancel", "Esc", 0));
     return out;
   }
   if (ui.mouse.stroking()) {

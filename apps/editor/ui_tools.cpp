@@ -20,7 +20,7 @@ struct ToolRow {
   int tool = -1;  ///< of enum Tool; -1: a command that is done at once
 };
 
-constexpr std::array<ToolRow, 17> rows{
+constexpr std::array<ToolRow, 19> rows{
     {{"tool.select", icon::pointer, ToolRow::Tint::Plain, static_cast<int>(Tool::Select)},
      {"tool.move", icon::move, ToolRow::Tint::Plain, static_cast<int>(Tool::Move)},
      {"tool.rotate", icon::rotate, ToolRow::Tint::Plain, static_cast<int>(Tool::Rotate)},
@@ -28,7 +28,10 @@ constexpr std::array<ToolRow, 17> rows{
      {"", ""},
      {"tool.box", icon::box, ToolRow::Tint::Plain, static_cast<int>(Tool::Box)},
      {"tool.lasso", icon::lasso, ToolRow::Tint::Plain, static_cast<int>(Tool::Lasso)},
+     {"tool.polygon", icon::polygon, ToolRow::Tint::Plain, static_cast<int>(Tool::Polygon)},
      {"tool.brush", icon::brush, ToolRow::Tint::Plain, static_cast<int>(Tool::Brush)},
+     {"tool.ball", icon::sphere, ToolRow::Tint::Plain, static_cast<int>(Tool::Ball)},
+     {"tool.volume", icon::volume, ToolRow::Tint::Plain, static_cast<int>(Tool::Volume)},
      {"tool.cut", icon::cut, ToolRow::Tint::Plain, static_cast<int>(Tool::Cut)},
      {"", ""},
      {"mark.fixed", icon::fixed, ToolRow::Tint::Fixed},
@@ -36,7 +39,6 @@ constexpr std::array<ToolRow, 17> rows{
      {"mark.rigid", icon::rigid, ToolRow::Tint::Rigid},
      {"mark.stiffer", icon::stiffer, ToolRow::Tint::Stiffer},
      {"mark.softer", icon::softer, ToolRow::Tint::Softer},
-     {"", ""},
      {"mark.free", icon::free}}};
 
 ImVec4 color_of(ToolRow::Tint tint) {
@@ -57,7 +59,7 @@ void panel_style() {
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(2), px(2)));
 }
 
-/// Of the bar with one button a line, or two.
+/// Of the bar with so many buttons a line.
 float bar_height(float side, int columns) {
   float height = 2 * px(5) - px(2);
   int in_line = 0;
@@ -70,26 +72,36 @@ float bar_height(float side, int columns) {
   return height;
 }
 
+/// As few as there is room for.
+int columns_of(const Ui& ui) {
+  const float room = ui.layout.bottom - ui.layout.top - 2 * px(measure::edge), side = px(measure::tool_button);
+  return bar_height(side, 1) <= room ? 1 : bar_height(side, 2) <= room ? 2 : 3;
+}
+
+float bar_width(int columns) {
+  if (columns == 1) return px(measure::tool_column);
+  return static_cast<float>(columns) * (px(measure::tool_button) + px(2)) + px(8);
+}
+
 void show_bar(Ui& ui) {
   const float side = px(measure::tool_button), left = px(measure::edge);
-  const float top = ui.layout.top + px(measure::edge), room = ui.layout.bottom - px(measure::edge) - top;
-  const bool one_column = bar_height(side, 1) <= room;
-  const float width = one_column ? px(measure::tool_column) : 2 * side + px(12);
-  const float height = bar_height(side, one_column ? 1 : 2);
+  const float top = ui.layout.top + px(measure::edge);
+  const int columns = columns_of(ui);
+  const float width = bar_width(columns), height = bar_height(side, columns);
   panel_style();
   widget::begin_panel("tools", {left, top}, {width, height});
-  bool second = false;
+  int in_line = 0;
   for (const ToolRow& row : rows) {
     if (row.command[0] == 0) {
       const ImVec2 at = ImGui::GetCursorScreenPos();
       ImGui::GetWindowDrawList()->AddRectFilled({at.x + px(3), at.y + px(3)}, {at.x + width - px(13), at.y + px(4)},
                                                 packed(theme().line));
       ImGui::Dummy({side, px(7)});
-      second = false;
+      in_line = 0;
       continue;
     }
-    if (!one_column && second) ImGui::SameLine(0, px(2));
-    second = !second;
+    if (in_line > 0) ImGui::SameLine(0, px(2));
+    in_line = (in_line + 1) % columns;
     const bool chosen = row.tool >= 0 && ui.context.view.tool == static_cast<Tool>(row.tool);
     command_button(ui, row.command, row.icon, side, chosen ? theme().text : color_of(row.tint), chosen);
   }
@@ -111,10 +123,7 @@ void show_switches(Ui& ui) {
     width += px(17);
     for (const char* name : spaces) width += std::round(ImGui::CalcTextSize(name).x) + px(18);
   }
-  const bool two_columns =
-      bar_height(px(measure::tool_button), 1) > ui.layout.bottom - ui.layout.top - 2 * px(measure::edge);
-  const float left =
-      px(measure::edge) * 2 + (two_columns ? 2 * px(measure::tool_button) + px(12) : px(measure::tool_column));
+  const float left = tools_right(ui);
   panel_style();
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(4), px(4)));
   widget::begin_panel("switches", {left, ui.layout.top + px(measure::edge)}, {width, px(measure::row) + 2 * px(4)});
@@ -137,6 +146,10 @@ void show_switches(Ui& ui) {
 }
 
 }  // namespace
+
+float tools_right(const Ui& ui) {
+  return px(measure::edge) * 2 + bar_width(columns_of(ui));
+}
 
 void show_tools(Ui& ui) {
   if (!ui.context.session.has_input()) return;

@@ -12,6 +12,8 @@ GizmoKind gizmo_kind(Tool tool) {
 }
 
 std::optional<Gizmo> gizmo_of(Session& session, const View& view) {
+  if (view.choosing && view.choosing->volume() != nullptr)
+    return Gizmo{view.choosing->sizing ? GizmoKind::Scale : GizmoKind::Translate, view.choosing->volume()->centre};
   const std::optional<std::size_t> handle = session.chosen_handle();
   if (!handle) return std::nullopt;
   const HandleView chosen = session.handles()[*handle];
@@ -24,7 +26,11 @@ std::optional<Gizmo> gizmo_of(Session& session, const View& view) {
 
 bool begin_manipulation(Session& session, View& view, GizmoKind kind, GizmoPart part, bool modal) {
   std::optional<Gizmo> gizmo = gizmo_of(session, view);
-  if (!gizmo || !session.begin_drag(*session.chosen_handle())) return false;
+  if (!gizmo) return false;
+  if (view.choosing && view.choosing->volume() != nullptr)
+    view.choosing->held = *view.choosing->volume();
+  else if (!session.begin_drag(*session.chosen_handle()))
+    return false;
   gizmo->kind = kind;
   view.manipulation.emplace(*gizmo, part, view.mouse, snap_length(session));
   view.modal = modal;
@@ -33,7 +39,8 @@ bool begin_manipulation(Session& session, View& view, GizmoKind kind, GizmoPart 
 
 void update_manipulation(Session& session, View& view, int modifiers) {
   if (!view.manipulation) return;
-  if (!session.dragging()) {  // something else ended the drag: undo, another file
+  if (!session.dragging() &&
+      !(view.choosing && view.choosing->held)) {  // something else ended the drag: undo, another file
     view.manipulation.reset();
     return;
   }
@@ -42,8 +49,22 @@ void update_manipulation(Session& session, View& view, int modifiers) {
   follow_manipulation(session, view);
 }
 
+static void follow_volume(Session& session, View& view) {
+  Choosing& choosing = *view.choosing;
+  *choosing.volume() = transformed(*choosing.held, view.manipulation->motion());
+  if (view.manipulation->state() != Manipulation::State::Running) {
+    choosing.held.reset();
+    view.manipulation.reset();
+  }
+  apply_choosing(session, view);
+}
+
 void follow_manipulation(Session& session, View& view) {
   if (!view.manipulation) return;
+  if (view.choosing && view.choosing->held) {
+    follow_volume(session, view);
+    return;
+  }
   const Manipulation::State state = view.manipulation->state();
   if (state == Manipulation::State::Cancelled) {
     session.cancel_drag();

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/editor/choosing.h"
 #include "apps/editor/manipulation.h"
 #include "apps/editor/navigation.h"
 #include "apps/editor/tools.h"
@@ -29,6 +30,11 @@ struct View {
   Depth depth = Depth::VisibleOnly;
   Space space = Space::World;
   double brush_radius = 24;  ///< pixels
+  double ball_radius = 0.1;  ///< of the sphere brush, in the shape's unit
+  Volume::Kind volume_kind = Volume::Kind::Box;
+
+  /// A volume or range that selects now.
+  std::optional<Choosing> choosing;
 
   double point_size = 2;  ///< pixels
   bool show_graph = false, show_rest = false, show_ground = true;
@@ -55,12 +61,13 @@ class Session;
 /// That a tool shows.
 GizmoKind gizmo_kind(Tool tool);
 
-/// The gizmo of the chosen handle, as tool and space say; nothing where none is chosen.
+/// The gizmo of the volume that is chosen by, else of the chosen handle, as tool and space say; nothing where there is
+/// none.
 std::optional<Gizmo> gizmo_of(Session& session, const View& view);
 
-/// Begins a drag of the chosen handle at the mouse; false where none is chosen. `modal`: by a key.
+/// Begins a drag of what has the gizmo at the mouse; false where there is none. `modal`: by a key.
 bool begin_manipulation(Session& session, View& view, GizmoKind kind, GizmoPart part, bool modal);
-/// For each motion of the mouse: moves the handle.
+/// For each motion of the mouse: moves it.
 void update_manipulation(Session& session, View& view, int modifiers);
 /// After press(), confirm() or cancel() of View::manipulation: hands its motion to the session, and ends both where it
 /// is over.

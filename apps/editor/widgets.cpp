@@ -112,13 +112,24 @@ void right_inside(const std::string& text, const ImVec4& color) {
 
 }  // namespace
 
+void push_fields() {
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, ImVec2(px(8), std::floor(0.5f * (px(20) - ImGui::GetFontSize()))));
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(8), px(4)));
+}
+
+void pop_fields() {
+  ImGui::PopStyleVar(2);
+}
+
 bool number(const char* id, double& value, const Number& described) {
   ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
   if (described.logarithmic) flags |= ImGuiSliderFlags_Logarithmic;
-  const char* format = described.integer ? "%.0f" : "%.4g";
+  char format[8] = "%.0f";
+  if (!described.integer) ImFormatString(format, sizeof format, "%%.%dg", described.digits);
   const double range = described.max - described.min;
-  const double speed = described.integer ? std::max(0.05, std::min(range, 2 * std::abs(value) + 10) / 300)
-                                         : std::min(range, 2 * std::abs(value) + 1e-3) / 300;
+  const double speed = described.speed > 0 ? described.speed
+                       : described.integer ? std::max(0.05, std::min(range, 2 * std::abs(value) + 10) / 300)
+                                           : std::min(range, 2 * std::abs(value) + 1e-3) / 300;
   // Its own text is centred: while it is not typed into, the number is drawn here, at the left.
   const bool typed = ImGui::TempInputIsActive(ImGui::GetID(id));
   if (!typed) ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0, 0, 0, 0));

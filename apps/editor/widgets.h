@@ -30,12 +30,18 @@ std::string cut(const std::string& text, float width);
 /// `value` in quiet colour, flush right in the row that has begun.
 void value_right(const std::string& value, const ImVec4& color);
 
+/// Fields are 20 high and 4 apart, rows of 24, from the first to the second.
+void push_fields();
+void pop_fields();
+
 /// A number that can be dragged sideways, clicked and typed. True when a change is finished (let go, Enter).
 struct Number {
   double min = 0, max = 1;
   bool integer = false;
   bool logarithmic = false;
   const char* unit = "";  ///< shown at the right, inside
+  double speed = 0;       ///< of a pixel of the mouse; 0: by the value
+  int digits = 4;
 };
 bool number(const char* id, double& value, const Number& described);
 /// A choice of names. True when another one was taken.

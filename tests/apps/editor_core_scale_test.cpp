@@ -100,7 +100,7 @@ TEST(EditorScale, KeysHoldTypeSnapAndCancel) {
   EXPECT_LT((scale.motion().stretch - Mat3(Vec3(1, 1.25, 1.25).asDiagonal())).norm(), 1e-12);
   for (const int key : {int('2'), int('.'), int('5')}) EXPECT_TRUE(scale.press(key, 0));
   EXPECT_EQ(scale.motion().stretch, Mat3(Vec3(1, 2.5, 2.5).asDiagonal()));
-  EXPECT_EQ(scale.text(), "YZ [2.5]");
+  EXPECT_EQ(scale.text(), "YZ × [2.5]");
   EXPECT_TRUE(scale.press('Z', 0));
   EXPECT_EQ(scale.motion().stretch, Mat3(Vec3(1, 1, 2.5).asDiagonal()));
   EXPECT_TRUE(scale.press(key::escape, 0));
