@@ -32,8 +32,8 @@ add_dependencies(sinew_deformers sinew-tets)  # which starts it
 # The editor without its window: everything that can be tested without a display.
 set(SINEW_EDITOR_CORE attribute_range background choosing coloring command_line commands export_notes figures keys legend lod
                       manipulation marks navigation normals onion point_set portal portraits preferences recovery repeatable
-                      session session_drag session_edit session_examples session_files session_hidden session_journal
-                      session_motion session_time tools view volume)
+                      residuals session session_control session_drag session_edit session_examples session_files
+                      session_hidden session_journal session_motion session_time tools view volume)
 list(TRANSFORM SINEW_EDITOR_CORE PREPEND ${CMAKE_SOURCE_DIR}/apps/editor/)
 list(TRANSFORM SINEW_EDITOR_CORE APPEND .cpp)
 add_library(sinew_editor_core STATIC ${SINEW_EDITOR_CORE})

@@ -18,6 +18,7 @@ namespace sinew::editor {
 enum class Request {
   Open,
   AddPoses,
+  AddControlPoints,
   SaveAs,
   Export,
   Screenshot,

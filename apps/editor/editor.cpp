@@ -206,6 +206,7 @@ void Editor::take_changes() {
   take_pictures();
   if (changed.marks || changed.input) ui_.marks = count_marks(session_);
   if (changed.input) show_new_input();
+  if (changed.control_points) view_.show_residuals = true;
   if (changed.any()) frames_wanted_ = std::max(frames_wanted_, 1);
   shape_moved_ |= changed.pose || changed.input || changed.frame;
   use_preferences();

@@ -47,6 +47,7 @@ class Editor {
   void open_next();
   void choose_file_to_open();
   void choose_poses();
+  void choose_control_points();
   void choose_file_to_save();
   void choose_file_to_export();
   void choose_name_of_turntable();

@@ -6,6 +6,7 @@
 #include "engine/geometry/error.h"
 #include "engine/gpu/offscreen.h"
 #include "engine/gpu/png.h"
+#include "engine/io/control_points.h"
 #include "engine/io/io.h"
 #include "engine/io/motion.h"
 
@@ -32,9 +33,9 @@ std::string beside(const std::string& path, const std::string& suffix, const std
   return (from.parent_path() / (from.stem().string() + suffix + extension)).string();
 }
 
-/// An edit or a motion: no shape.
+/// An edit, a motion or control points: no shape.
 bool goes_on_top(const std::string& path) {
-  return fs::path(path).extension() == ".json" || io::is_motion(path);
+  return fs::path(path).extension() == ".json" || io::is_motion(path) || io::is_control_points(path);
 }
 
 }  // namespace
@@ -43,6 +44,7 @@ void Editor::answer(Request request) {
   switch (request) {
     case Request::Open: choose_file_to_open(); break;
     case Request::AddPoses: choose_poses(); break;
+    case Request::AddControlPoints: choose_control_points(); break;
     case Request::SaveAs: choose_file_to_save(); break;
     case Request::Export: choose_file_to_export(); break;
     case Request::Screenshot: {
@@ -135,6 +137,19 @@ void Editor::choose_poses() {
                 .folder_action = "Add this folder",
                 .folder_help = "All shapes in it are poses",
                 .done = [this](const std::string& path) { session_.add_poses(path); }});
+}
+
+void Editor::choose_control_points() {
+  ui_.files.open(
+      {.title = "Control points",
+       .action = "Take",
+       .save = false,
+       .extensions = {"csv", "txt"},
+       .start = fs::path(session_.input_path()).parent_path().string(),
+       .note = "A row each: x, y, z, tx, ty, tz (or id, tx, ty, tz); t is the target. A first row may name them.",
+       .folder_action = {},
+       .folder_help = {},
+       .done = [this](const std::string& path) { session_.add_control_points(path); }});
 }
 
 void Editor::choose_file_to_save() {

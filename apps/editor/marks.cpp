@@ -163,6 +163,26 @@ LayerPoints points_of(const Layer& layer, document::Selector& selector, std::opt
   return out;
 }
 
+/// Without `set` among fixed points and handles; those that have no other points go. `fix`: all of it is fixed then.
+static Layer without_points(const Layer& layer, const LayerPoints& points, const PointSet& set, bool fix,
+                            std::optional<int> frame) {
+  Layer out = layer;
+  out.fixed = fixed_after(layer, points, set, fix, frame);
+  for (std::size_t h = layer.handles.size(); h-- > 0;) {
+    if (!any_in(points.handles[h], set)) continue;
+    out.handles[h] = handle_without(layer.handles[h], points.handles[h], set);
+    const bool empty = std::all_of(points.handles[h].begin(), points.handles[h].end(), [&](Index i) { return set[i]; });
+    if (empty) out = without_handle(out, h);
+  }
+  return out;
+}
+
+static void append(const HandleEdit& handle, Layer& layer) {
+  for (document::Key& key : layer.keys)
+    if (key.handles.size() == layer.handles.size()) key.handles.push_back(handle.motion);
+  layer.handles.push_back(handle);
+}
+
 Layer marked(const Layer& layer, const LayerPoints& points, const PointSet& set, Mark mark, const Motion& motion,
              std::optional<int> frame) {
   Layer out = layer;
@@ -172,22 +192,21 @@ Layer marked(const Layer& layer, const LayerPoints& points, const PointSet& set,
   if (mark == Mark::Stiffer) out.stiffness = stiffness_after(layer, points, set, 2, frame);
   if (mark == Mark::Softer) out.stiffness = stiffness_after(layer, points, set, 0.5, frame);
   if (mark == Mark::Rigid || mark == Mark::Stiffer || mark == Mark::Softer) return out;
-  out.fixed = fixed_after(layer, points, set, mark == Mark::Fixed, frame);
-  for (std::size_t h = layer.handles.size(); h-- > 0;) {
-    if (!any_in(points.handles[h], set)) continue;
-    out.handles[h] = handle_without(layer.handles[h], points.handles[h], set);
-    const bool empty = std::all_of(points.handles[h].begin(), points.handles[h].end(), [&](Index i) { return set[i]; });
-    if (empty) out = without_handle(out, h);
-  }
+  out = without_points(out, points, set, mark == Mark::Fixed, frame);
   if (mark != Mark::Handle || set.empty()) return out;
   HandleEdit handle;
   handle.points = selection_of(set.indices(), frame);
   handle.motion = motion;
   const bool moves = motion.move || motion.rotate || motion.matrix || !motion.to.get().empty();
   if (!moves) handle.motion.move = Vec3(0, 0, 0);
-  for (document::Key& key : out.keys)
-    if (key.handles.size() == out.handles.size()) key.handles.push_back(handle.motion);
-  out.handles.push_back(std::move(handle));
+  append(handle, out);
+  return out;
+}
+
+Layer with_handles(const Layer& layer, const LayerPoints& points, const PointSet& set,
+                   std::span<const HandleEdit> handles, std::optional<int> frame) {
+  Layer out = without_points(layer, points, set, false, frame);
+  for (const HandleEdit& handle : handles) append(handle, out);
   return out;
 }
 

@@ -50,6 +50,11 @@ LayerPoints points_of(const document::Layer& layer, document::Selector& selector
 document::Layer marked(const document::Layer& layer, const LayerPoints& points, const PointSet& set, Mark mark,
                        const document::Motion& motion = {}, std::optional<int> frame = std::nullopt);
 
+/// The layer with these handles at its end, also in its keys. Their points, `set`, are taken from the fixed and from
+/// the other handles.
+document::Layer with_handles(const document::Layer& layer, const LayerPoints& points, const PointSet& set,
+                             std::span<const document::HandleEdit> handles, std::optional<int> frame = std::nullopt);
+
 /// Layer::frame, or where the layer's structure is made while it names none.
 int base_frame(const document::Layer& layer, int first);
 

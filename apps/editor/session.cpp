@@ -113,6 +113,7 @@ void Session::show_answer(std::vector<document::LayerResult> layers) {
   const bool same_poses = same_weights && std::equal(layers.begin(), layers.end(), shown_.begin(), shown_.end(),
                                                      [](const auto& a, const auto& b) { return a.pose == b.pose; });
   shown_ = std::move(layers);
+  residuals_.reset();
   changed_.weights |= !same_weights;
   if (!same_poses) {
     changed_.pose = true;

@@ -24,6 +24,7 @@
 #include "apps/editor/marks.h"
 #include "apps/editor/point_set.h"
 #include "apps/editor/repeatable.h"
+#include "apps/editor/residuals.h"
 #include "engine/document/history.h"
 #include "engine/document/journal.h"
 #include "engine/document/markers.h"
@@ -49,12 +50,13 @@ struct Job {
 
 /// What poll() or an edit changed since the last poll(): what the window must hand to the device again.
 struct Changed {
-  bool input = false;    ///< another shape: all buffers
-  bool frame = false;    ///< another frame of it: all buffers, but the view stays
-  bool weights = false;  ///< skinning weights of shown()
-  bool pose = false;     ///< poses of shown(), and with them bent_positions()
-  bool marks = false;    ///< point_marks(): marks or selection
-  bool project = false;  ///< layers, history, names: panels, title
+  bool input = false;           ///< another shape: all buffers
+  bool frame = false;           ///< another frame of it: all buffers, but the view stays
+  bool weights = false;         ///< skinning weights of shown()
+  bool pose = false;            ///< poses of shown(), and with them bent_positions()
+  bool marks = false;           ///< point_marks(): marks or selection
+  bool project = false;         ///< layers, history, names: panels, title
+  bool control_points = false;  ///< new handles from a file of such
   bool any() const { return input || frame || weights || pose || marks || project; }
 };
 
@@ -91,7 +93,8 @@ class Session {
   // Files
 
   /// Opens a shape, or an EDIT.json together with its "inputs" (an edit without inputs is laid on the present shape),
-  /// or a motion (io::is_motion), which becomes the markers of the chosen layer: one step of history. What is open
+  /// or a motion (io::is_motion), which becomes the markers of the chosen layer, or control points
+  /// (io::is_control_points), which become handles of it: one step of history. What is open
   /// stays until the new one is there, and stays if it can't be read (a notice). Replaces a running open.
   ///
   /// A folder or several shapes are poses of what is open (of the first of them, where nothing is): examples of the
@@ -103,6 +106,9 @@ class Session {
   void open_shape(const std::string& path);
   /// Poses and nothing else: what is none is a notice.
   void add_poses(const std::string& path);
+  /// Whatever else it could be: each control point becomes a handle of the chosen layer, on the point of the shape that
+  /// is nearest; its target is in the file, moved by as much as the point is beside the place.
+  void add_control_points(const std::string& path);
   /// Whether what is open would stay with open(paths), or may.
   bool joins(const std::vector<std::string>& paths) const;
   /// A shape that open() found to be no pose of what is open; to be opened by open_shape() if the user wants that.
@@ -293,6 +299,10 @@ class Session {
   std::optional<std::size_t> chosen_handle() const { return handle_; }
   void choose_handle(std::optional<std::size_t> handle) { handle_ = handle; }
 
+  /// Of the chosen layer's handles with points, the farthest first; while a drag runs, with the drag. Empty while the
+  /// answer is on its way.
+  const std::vector<Residual>& residuals();
+
   /// False where there is no such handle. Ends a drag that runs.
   bool begin_drag(std::size_t handle);
   /// The motion since begin_drag, not since the last call. Asks the solver for an interactive answer.
@@ -323,9 +333,10 @@ class Session {
     bool moved = false, unsettled = false;
   };
   struct Opened;
+  struct Control;
   /// What is to be opened next.
   struct Opening {
-    enum class As { Either, Shape, Poses, FirstPoses, Recovered } as = As::Either;
+    enum class As { Either, Shape, Poses, FirstPoses, ControlPoints, Recovered } as = As::Either;
     std::vector<std::string> paths;
     std::shared_ptr<document::OldJournal> journal = nullptr;
   };
@@ -348,6 +359,8 @@ class Session {
   Drag drag_from_here();
   std::optional<document::Layer> layer_to_drive(const std::string& path);
   void open_motion(const std::string& path);
+  void open_control_points(const std::string& path);
+  void take_control_points(const std::string& path, std::vector<Control> controls);
   void take_motion(const document::Markers& markers);
   void retime();
   bool preparing() const;
@@ -440,6 +453,7 @@ class Session {
   std::shared_ptr<document::Selector> selector_;
   std::optional<LayerPoints> layer_points_;  ///< of the chosen layer of the present project
   std::optional<std::vector<Vec3>> handle_centres_;
+  std::optional<std::vector<Residual>> residuals_;
   std::shared_ptr<const Neighbourhood> neighbourhood_;
   std::vector<std::function<void()>> after_neighbourhood_;
   std::optional<Opening> next_open_;

@@ -61,6 +61,7 @@ void Session::project_changed() {
   if (handle_ && *handle_ >= handles) handle_.reset();
   layer_points_.reset();
   handle_centres_.reset();
+  residuals_.reset();
   marks_ready_ = false;
   dirty_ = !(project() == saved_);
   if (journal_ != nullptr && has_input()) journal_->note(history_);

@@ -7,6 +7,7 @@
 #include "engine/document/examples.h"
 #include "engine/document/keys.h"
 #include "engine/document/settings.h"
+#include "engine/io/control_points.h"
 #include "engine/io/motion.h"
 
 namespace sinew::editor {
@@ -31,7 +32,7 @@ bool is_folder(const std::string& path) {
 }
 
 bool is_shape(const std::string& path) {
-  return fs::path(path).extension() != ".json" && !io::is_motion(path);
+  return fs::path(path).extension() != ".json" && !io::is_motion(path) && !io::is_control_points(path);
 }
 
 bool same_file(const std::string& a, const std::string& b) {

@@ -4,6 +4,7 @@
 #include "engine/document/edit.h"
 #include "engine/document/evaluate.h"
 #include "engine/document/settings.h"
+#include "engine/io/control_points.h"
 #include "engine/io/frame_pattern.h"
 #include "engine/io/io.h"
 #include "engine/io/motion.h"
@@ -98,6 +99,8 @@ void Session::open_now(const Opening& opening) {
     open_poses(opening);
   } else if (opening.as == Opening::As::Shape) {
     read(path);
+  } else if (opening.as == Opening::As::ControlPoints || io::is_control_points(path)) {
+    open_control_points(path);
   } else if (io::is_motion(path)) {
     open_motion(path);
   } else if (several && !has_input()) {

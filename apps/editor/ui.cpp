@@ -34,6 +34,7 @@ void show_ui(Ui& ui) {
   show_timeline(ui);
   show_status(ui);
   show_choosing(ui);
+  show_residuals(ui);
   show_job(ui);
   show_toasts(ui);
   show_palette(ui);

@@ -258,7 +258,7 @@ void show_marks(Ui& ui) {
   if (handles.size() > 1 && handles.size() <= 8) {
     for (std::size_t i = 0; i < handles.size(); ++i) {
       ImGui::PushID(static_cast<int>(i));
-      const std::string name = fmt::format("Handle {}", i + 1);
+      const std::string name = name_of_handle(*session.layer(), i);
       if (mark_row("handle", theme().handle, name.c_str(), grouped(handles[i].points) + " points",
                    session.chosen_handle() == i, "Click to choose this handle", px(20)))
         session.choose_handle(i);

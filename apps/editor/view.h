@@ -39,7 +39,7 @@ struct View {
   double point_size = 2;  ///< pixels
   bool show_graph = false, show_rest = false, show_ground = true;
   bool show_markers = true;
-  bool show_history = false;
+  bool show_history = false, show_residuals = false;
   bool cut_tets = false;                            ///< the structure of a solid is shown cut open
   gpu::Section section;                             ///< where
   std::string color_by;                             ///< an attribute's name; empty: plain

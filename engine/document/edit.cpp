@@ -233,6 +233,7 @@ static void fields(A& a, Is<Motion> auto& motion) {
 
 template <class A>
 static void fields(A& a, Is<HandleEdit> auto& handle) {
+  a.optional("name", handle.name);
   a.required("points", handle.points);
   fields(a, handle.motion);
   a.place(handle.place);

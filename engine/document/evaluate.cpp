@@ -12,8 +12,30 @@ namespace sinew::document {
 
 namespace {
 
+/// Of each handle that has points, by what came out.
+void measure_each(const Layer& layer, const Constraints& constraints, std::span<const Vec3> bent, double diagonal,
+                  LayerReport& out) {
+  for (std::size_t h = 0; h < constraints.handles.size(); ++h) {
+    const Handle& handle = constraints.handles[h];
+    if (handle.points.empty()) continue;
+    HandleReport report;
+    if (h < layer.handles.size()) report.name = layer.handles[h].name;
+    report.points = handle.points.size();
+    double sum = 0;
+    for (std::size_t k = 0; k < handle.points.size(); ++k) {
+      const double distance = (bent[handle.points[k]] - handle.targets[k]).norm() / diagonal;
+      report.max = std::max(report.max, distance);
+      sum += distance * distance;
+    }
+    report.rms = std::sqrt(sum / static_cast<double>(report.points));
+    out.handles.push_back(std::move(report));
+  }
+}
+
 /// Distances of the bent handle points from their targets: what came out, whatever the solver thinks.
-void measure_handles(const Constraints& constraints, std::span<const Vec3> bent, double diagonal, LayerReport& out) {
+void measure_handles(const Layer& layer, const Constraints& constraints, std::span<const Vec3> bent, double diagonal,
+                     LayerReport& out) {
+  measure_each(layer, constraints, bent, diagonal, out);
   // Of places in space only the method knows where they came to be.
   const auto has_places = [](const Handle& handle) { return !handle.places.empty(); };
   if (std::any_of(constraints.handles.begin(), constraints.handles.end(), has_places)) {
@@ -23,13 +45,11 @@ void measure_handles(const Constraints& constraints, std::span<const Vec3> bent,
   }
   double sum = 0;
   std::size_t count = 0;
-  for (const Handle& handle : constraints.handles)
-    for (std::size_t k = 0; k < handle.points.size(); ++k) {
-      const double distance = (bent[handle.points[k]] - handle.targets[k]).norm() / diagonal;
-      out.handle_max = std::max(out.handle_max, distance);
-      sum += distance * distance;
-      ++count;
-    }
+  for (const HandleReport& handle : out.handles) {
+    out.handle_max = std::max(out.handle_max, handle.max);
+    sum += handle.rms * handle.rms * static_cast<double>(handle.points);
+    count += handle.points;
+  }
   if (count > 0) out.handle_rms = std::sqrt(sum / static_cast<double>(count));
 }
 
@@ -137,9 +157,9 @@ Evaluation evaluate(Workspace& workspace, std::span<const Layer> layers, int fra
       const std::shared_ptr<const Shape> rest = workspace.rest(result.layer);
       std::vector<Vec3> moved(rest->size());
       skin_points(deformer.weights(), *result.pose, rest->positions, moved);
-      measure_handles(result.constraints, moved, diagonal, report);
+      measure_handles(layers[result.layer], result.constraints, moved, diagonal, report);
     } else {
-      measure_handles(result.constraints, bent->positions, diagonal, report);
+      measure_handles(layers[result.layer], result.constraints, bent->positions, diagonal, report);
     }
     if (options.measure) measure(deformer, result, *out.shape, bent->positions, report);
     out.bindings.push_back(deformer.binding());

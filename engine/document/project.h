@@ -100,6 +100,7 @@ struct HandleEdit {
   Selection points;
   Motion motion;
   Place place;
+  std::string name = {};  ///< what tables call it; may be empty
   bool operator==(const HandleEdit&) const = default;
 };
 

@@ -52,6 +52,21 @@ void write_seconds(JsonWriter& out, const LayerReport& layer) {
   out.end_object();
 }
 
+void write_handles(JsonWriter& out, const LayerReport& layer) {
+  if (layer.handles.empty()) return;
+  out.key("handles");
+  out.begin_array(false);
+  for (const HandleReport& handle : layer.handles) {
+    out.begin_object();
+    if (!handle.name.empty()) member(out, "name", handle.name);
+    member(out, "points", handle.points);
+    member(out, "max", handle.max);
+    member(out, "rms", handle.rms);
+    out.end_object();
+  }
+  out.end_array();
+}
+
 void write_layer(JsonWriter& out, const LayerReport& layer) {
   out.begin_object();
   member(out, "method", layer.method);
@@ -72,6 +87,7 @@ void write_layer(JsonWriter& out, const LayerReport& layer) {
   member(out, "max", layer.handle_max);
   member(out, "rms", layer.handle_rms);
   out.end_object();
+  write_handles(out, layer);
   member(out, "example_weights", layer.solve.example_weights);
   write_quality(out, layer.quality);
   write_seconds(out, layer);
@@ -92,6 +108,10 @@ void add_frame(LayerReport& all, const LayerReport& frame) {
   all.solve.solve_seconds += frame.solve.solve_seconds;
   all.handle_max = std::max(all.handle_max, frame.handle_max);
   all.handle_rms = std::max(all.handle_rms, frame.handle_rms);
+  for (std::size_t h = 0; h < std::min(all.handles.size(), frame.handles.size()); ++h) {
+    all.handles[h].max = std::max(all.handles[h].max, frame.handles[h].max);
+    all.handles[h].rms = std::max(all.handles[h].rms, frame.handles[h].rms);
+  }
   all.quality.edge_rms = std::max(all.quality.edge_rms, frame.quality.edge_rms);
   all.quality.edge_max = std::max(all.quality.edge_max, frame.quality.edge_max);
   if (std::abs(frame.quality.volume_change) > std::abs(all.quality.volume_change))

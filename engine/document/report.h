@@ -18,6 +18,13 @@ struct InputReport {
 /// Counts components: seconds for a scan of many million points.
 InputReport report_of(const Shape& input);
 
+/// How far a handle's points came to be from their targets.
+struct HandleReport {
+  std::string name;  ///< HandleEdit::name
+  std::size_t points = 0;
+  double max = 0, rms = 0;  ///< in units of the input's bounding-box diagonal
+};
+
 /// Energies as the solver has them; distances in units of the input's bounding-box diagonal; times in seconds,
 /// measured.
 struct LayerReport {
@@ -26,6 +33,7 @@ struct LayerReport {
   Figures counts;                  ///< of the deformer's structure
   std::vector<std::string> notes;  ///< what was left out in making it, one sentence each
   double handle_max = 0, handle_rms = 0;
+  std::vector<HandleReport> handles;  ///< of those that have points
   Quality quality;
   double build = 0;  ///< making the deformer: its structure, and binding the points for the first time
   double bind = 0;   ///< binding all points once more

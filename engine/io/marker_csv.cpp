@@ -26,12 +26,6 @@ std::optional<AxisOfMarker> axis_of(const std::string& name) {
   return AxisOfMarker{name.substr(0, name.size() - 2), axis % 3};
 }
 
-char separator_of(std::string_view line) {
-  for (const char separator : {',', ';', '\t'})
-    if (line.find(separator) != std::string_view::npos) return separator;
-  return ',';
-}
-
 bool names_frame(const std::string& cell) {
   return same_word(cell, "frame") || same_word(cell, "frame#");
 }
@@ -124,12 +118,6 @@ std::vector<std::string> column_names(const std::vector<std::string>& names, Wri
   if (changed > 0)
     report.lost.push_back("Names that stand twice or are empty: " + std::to_string(changed) + " changed.");
   return out;
-}
-
-/// The mark that spreadsheets put before UTF-8 is left out.
-std::string_view without_mark(std::string_view text) {
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  return text;
 }
 
 }  // namespace

@@ -29,6 +29,17 @@ std::vector<Cell> cells_of(std::string_view line, char separator) {
   }
 }
 
+char separator_of(std::string_view line) {
+  for (const char separator : {',', ';', '\t'})
+    if (line.find(separator) != std::string_view::npos) return separator;
+  return ',';
+}
+
+std::string_view without_mark(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  return text;
+}
+
 MarkerRows::MarkerRows(std::string path, std::size_t size, char separator, MarkerColumns columns)
     : path_(std::move(path)), size_(size), separator_(separator), columns_(std::move(columns)) {
   out_.names = columns_.names;

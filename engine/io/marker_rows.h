@@ -20,6 +20,12 @@ struct Cell {
 /// The cells of a line. A cell in quotes may hold the separator, and a quote as two.
 std::vector<Cell> cells_of(std::string_view line, char separator);
 
+/// The first of comma, semicolon and tab that is in the line; a comma where none is.
+char separator_of(std::string_view line);
+
+/// Without the mark that spreadsheets put before UTF-8.
+std::string_view without_mark(std::string_view text);
+
 struct MarkerColumns {
   std::vector<std::string> names;
   std::vector<std::array<std::size_t, 3>> places;  ///< x, y, z of each marker, counted from 0

@@ -225,6 +225,14 @@ TEST_F(Sinew, TheReportHasTheFieldsOthersRelyOn) {
     EXPECT_GE(layer["energy"].at(name), 0) << name;
   EXPECT_GT(layer["handle_error"]["max"], 0);
   EXPECT_LT(layer["handle_error"]["rms"], 0.01);
+  ASSERT_GE(layer["handles"].size(), 1u);
+  double worst = 0;
+  for (const Json& handle : layer["handles"]) {
+    EXPECT_GT(handle["points"], 0);
+    EXPECT_LE(handle["rms"], handle["max"]);
+    worst = std::max(worst, handle["max"].get<double>());
+  }
+  EXPECT_EQ(worst, layer["handle_error"]["max"]);
   for (const char* name : {"build", "bind", "prefactor", "solve", "per_iteration", "skin"})
     EXPECT_GE(layer["seconds"].at(name), 0) << name;
   for (const char* name : {"read", "write", "total"}) EXPECT_GT(report["seconds"].at(name), 0) << name;

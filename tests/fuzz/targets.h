@@ -7,6 +7,7 @@
 
 #include "engine/io/byte_source.h"
 #include "engine/io/bytes.h"
+#include "engine/io/control_points.h"
 #include "engine/io/gltf.h"
 #include "engine/io/marker_csv.h"
 #include "engine/io/mdd.h"
@@ -201,6 +202,20 @@ inline void fuzz_motion(Trajectories (*read)(const std::string&, std::span<const
     const GapReport bridged = bridge_gaps(motion, 5);
     CHECK(bridged.bridged + bridged.released == gaps.released, bridged.bridged, gaps.released);
     CHECK(bridged.sentences().size() == gaps.sentences().size());
+  } catch (const InputError&) {
+  }
+}
+
+/// Control points: finite, each by its number or its place.
+inline void fuzz_control(std::span<const std::uint8_t> data) {
+  try {
+    const std::vector<ControlPoint> points = read_control_points("fuzz", std::as_bytes(data));
+    CHECK(!points.empty());
+    for (const ControlPoint& point : points) {
+      CHECK(point.to.allFinite() && point.at.allFinite());
+      CHECK(point.point.value_or(0) < ~Index{0});
+      CHECK(point.point.has_value() == points.front().point.has_value());
+    }
   } catch (const InputError&) {
   }
 }

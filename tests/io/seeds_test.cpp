@@ -63,6 +63,6 @@ INSTANTIATE_TEST_SUITE_P(
                     Target{"tetgen", fuzz_tetgen}, Target{"gmsh", fuzz<read_gmsh, write_gmsh>},
                     Target{"medit", fuzz<read_medit, write_medit>}, Target{"c3d", fuzz<read_c3d>},
                     Target{"trc", fuzz<read_trc>}, Target{"bvh", fuzz<read_bvh>},
-                    Target{"markers", fuzz<read_marker_csv>}));
+                    Target{"markers", fuzz<read_marker_csv>}, Target{"control", fuzz_control}));
 
 }  // namespace sinew::io
