@@ -390,7 +390,7 @@ const std::array table{
     Command{"view.local", "Local axes", "View", "", "The chosen handle's own axes in place of the world's.", always,
             [](C& c) { c.view.space = c.view.space == Space::Local ? Space::World : Space::Local; },
             [](const C& c) { return c.view.space == Space::Local; }, true},
-    Command{"view.history", "History", "View", "Ctrl+H", "List all steps; a click on one goes there.", open,
+    Command{"view.history", "History", "View", "Ctrl+Shift+H", "List all steps; a click on one goes there.", open,
             [](C& c) { c.view.show_history = !c.view.show_history; }, [](const C& c) { return c.view.show_history; },
             true},
     Command{"view.graph", "Structure", "View", "", "Show the structure of the chosen layer.", always,

@@ -157,10 +157,10 @@ void Journal::Writer::open_file() {
       sync_folder(folder_);
       return;
     }
-    const int error = errno;
+    const int why = errno;
     unlink(path_.c_str());
     close(std::exchange(file_, -1));
-    errno = error;
+    errno = why;
   }
 }
 

@@ -73,7 +73,7 @@ class EditorRecovery : public ::testing::Test {
     session.mark_selection(Mark::Handle);
     ASSERT_TRUE(settle(session));
     ASSERT_TRUE(session.begin_drag(0));
-    RigidMotion motion;
+    Transform motion;
     motion.move = Vec3(0, 0, 0.4);
     session.drag_to(motion);
     session.end_drag();

@@ -85,7 +85,7 @@ class EditorSeeing : public ::testing::Test {
 
   void move_handle(const Vec3& by) {
     ASSERT_TRUE(session.begin_drag(0));
-    RigidMotion motion;
+    Transform motion;
     motion.move = by;
     session.drag_to(motion);
   }
@@ -237,7 +237,7 @@ TEST_F(EditorSeeing, HeatMapsOfManyPointsCostAPictureLittle) {
     move_handle(Vec3(0, 0.1, 0));
     std::vector<double> times;
     for (int step = 0; step < 12; ++step) {
-      RigidMotion motion;
+      Transform motion;
       motion.move = Vec3(0, 0.1 + 0.01 * step, 0);
       session.drag_to(motion);
       until(session, [&] { return session.shown_ticket() == session.asked(); });

@@ -86,7 +86,7 @@ recover() {
   export_to again.ply
   ! within "$(distance "$work/before.ply" "$work/again.ply")" 0.005 || fail "the drag before the kill is lost"
 
-  press ctrl+h
+  press ctrl+shift+h
   sleep 0.5
   shot history
   point 860 216 # the third row: with both marks, not dragged yet

@@ -42,7 +42,7 @@ void drag_some(Session& session, std::mt19937& random) {
   if (session.layer() == nullptr || session.layer()->handles.empty()) return;
   if (!session.begin_drag(random() % session.layer()->handles.size())) return;
   for (int i = 1; i <= 5; ++i) {
-    editor::RigidMotion motion;
+    editor::Transform motion;
     motion.move = Vec3(0.01 * i, 0.002 * static_cast<double>(random() % 10), 0);
     session.drag_to(motion);
     session.poll();
