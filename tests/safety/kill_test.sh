@@ -10,6 +10,7 @@ saver=$1/sinew-saver
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 command -v strace >/dev/null || { echo "skipped: strace is not installed"; exit 77; }
+export ASAN_OPTIONS=${ASAN_OPTIONS:-}:detect_leaks=0 # leaks can't be looked for in what is traced
 strace -o /dev/null true 2>/dev/null || { echo "skipped: strace may not trace programs here"; exit 77; }
 
 # All calls that a save or a journal could change the disk by; those that a machine does not have are left out.
