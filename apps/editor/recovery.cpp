@@ -63,12 +63,14 @@ std::string what_of(const document::OldJournal& journal) {
 
 std::string details_of(const document::OldJournal& journal) {
   const document::JournalContent& content = journal.content();
+  // Where all was taken back, what can be had again.
+  const std::size_t last = content.present > 0 ? content.present : content.states.size() - 1;
   const std::time_t time = journal.written();
   std::tm local{};
   localtime_r(&time, &local);
-  std::string out = fmt::format("The last one was \"{}\", on {:04}-{:02}-{:02} at {:02}:{:02}.",
-                                content.states[content.present].label, local.tm_year + 1900, local.tm_mon + 1,
-                                local.tm_mday, local.tm_hour, local.tm_min);
+  std::string out =
+      fmt::format("The last one was \"{}\", on {:04}-{:02}-{:02} at {:02}:{:02}.", content.states[last].label,
+                  local.tm_year + 1900, local.tm_mon + 1, local.tm_mday, local.tm_hour, local.tm_min);
   if (content.torn > 0) out += " Another was being written and is lost.";
   return out;
 }
