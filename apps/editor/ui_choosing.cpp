@@ -163,8 +163,8 @@ ImVec4 choosing_panel(const Ui& ui) {
   const float height = px(measure::row) * (rows + 2) + px(volume == nullptr ? histogram_height + 76 : 72);
   // Below the axes where there is room.
   const float lowest = std::max(ui.layout.top + px(8), ui.layout.bottom - height - px(8));
-  return {ui.layout.column - px(panel_width) - px(measure::edge), std::min(ui.layout.top + px(96), lowest),
-          px(panel_width), height};
+  const float right = ui.layout.column - px(measure::edge), left = std::max(right - px(panel_width), tools_right(ui));
+  return {left, std::min(ui.layout.top + px(96), lowest), right - left, height};
 }
 
 void show_choosing(Ui& ui) {

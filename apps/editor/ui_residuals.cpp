@@ -72,7 +72,7 @@ void show_rows(Ui& ui, const std::vector<Residual>& residuals, std::size_t rows)
 void show_residuals(Ui& ui) {
   Session& session = ui.context.session;
   if (!ui.context.view.show_residuals || !session.has_input()) return;
-  const float left = tools_right(ui), right = left + px(panel_width);
+  const float left = tools_right(ui), right = std::min(left + px(panel_width), ui.layout.column - px(measure::edge));
   if (ui.context.view.choosing && right > choosing_panel(ui).x) return;  // there is no room for both
   const std::vector<Residual> residuals = session.residuals();
   // Beside the axes, or below them.
@@ -85,7 +85,7 @@ void show_residuals(Ui& ui) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(measure::pad), px(8)));
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(8), px(4)));
   const float height = px(measure::row) * static_cast<float>(rows) + around;
-  widget::begin_panel("residuals", {left, top}, {px(panel_width), height});
+  widget::begin_panel("residuals", {left, top}, {right - left, height});
   const ImVec2 start = ImGui::GetCursorScreenPos();
   widget::heading("RESIDUALS, IN THE SHAPE'S UNIT", true);
   const ImVec2 after = ImGui::GetCursorScreenPos();
