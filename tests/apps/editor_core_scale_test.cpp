@@ -175,6 +175,48 @@ TEST(EditorScale, BetweenKeysTurnAndStretchAreInterpolatedEach) {
   for (std::size_t k = 0; k < points.size(); ++k) EXPECT_LT((half[k] - wanted[k]).norm(), 1e-9) << half[k].transpose();
 }
 
+TEST(EditorScale, AScaleOfWhatMovesIsAKey) {
+  const TemporaryFolder folder;
+  const Shape rest = samples::box({3, 10, 3}, {0.05, 0.05, 0.05});
+  for (int frame = 1; frame <= 5; ++frame) {
+    Shape shape = rest;
+    for (Vec3& p : shape.positions) p.x() += 0.1 * frame;
+    io::write(folder / ("walk.000" + std::to_string(frame) + ".ply"), shape, true);
+  }
+  Session session{sinew::methods()};
+  session.open(folder / "walk.####.ply");
+  ASSERT_TRUE(until(session, [&] { return session.has_input(); })) << errors_of(session);
+  for (const bool top : {false, true}) {
+    PointSet end(session.input()->size());
+    for (std::size_t i = 0; i < end.size(); ++i) {
+      const double y = session.input()->positions[i].y(), low = session.rest_bounds().min.y();
+      if (top ? y > session.rest_bounds().max.y() - 0.01 : y < low + 0.01) end.add(i);
+    }
+    session.select(end, SelectMode::Replace);
+    session.mark_selection(top ? Mark::Handle : Mark::Fixed);
+  }
+  ASSERT_TRUE(settle(session));
+  for (const auto& [frame, factor] : {std::pair(1, 1.0), std::pair(5, 2.0)}) {
+    session.go_to_frame(frame);
+    ASSERT_TRUE(until(session, [&] { return session.frame() == frame && !session.solving(); }));
+    ASSERT_TRUE(session.begin_drag(0));
+    Transform by = scale_by(Vec3::Constant(factor), session.handles()[0].target);
+    by.move = {0, 0, 0.01};
+    session.drag_to(by);
+    session.end_drag();
+    ASSERT_TRUE(settle(session));
+  }
+  ASSERT_EQ(errors_of(session), "");
+  ASSERT_EQ(session.project().layers[0].keys.size(), 2u);
+  EXPECT_FALSE(session.project().layers[0].keys[0].handles[0].matrix);
+  ASSERT_TRUE(session.project().layers[0].keys[1].handles[0].matrix);
+  session.go_to_frame(3);
+  ASSERT_TRUE(until(session, [&] { return session.frame() == 3 && !session.solving(); }));
+  const std::vector<document::Motion>& between = session.shown().front().motions;
+  ASSERT_EQ(between.size(), 1u);
+  EXPECT_LT((between[0].matrix->topLeftCorner<3, 3>() - 1.5 * Mat3::Identity()).norm(), 1e-12) << "half way";
+}
+
 class EditorScaledBox : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EditorScaledBox, TheMethodTakesItAndTheFileSaysTheSame) {

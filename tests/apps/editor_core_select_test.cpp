@@ -312,6 +312,9 @@ TEST(EditorSelecting, AMillionPointsWithinAFrame) {
   AttributeRange range = range_of(*shape, "height (m)");
   range.low = 101;
   print("range of an attribute", [&] { in_range(range); });
+  Neighbourhood pieces;  // a thousand
+  for (std::size_t i = 0; i < positions.size(); ++i) pieces.component.push_back(static_cast<Index>(i / 1000));
+  print("connected", [&] { connected(in_range(range), pieces); });
   choose_by_volume(window.session, window.view);
   print("volume to selection to marks", [&] {
     apply_choosing(window.session, window.view);

@@ -36,7 +36,7 @@ same_points() {
 }
 
 save_and_export() {
-  press ctrl+s
+  press ctrl+shift+s
   name "$work/edit.json"
   until_done 30 test -s "$work/edit.json"
   press ctrl+e
@@ -46,6 +46,9 @@ save_and_export() {
 
 # The members of an edit without blanks.
 plain() { tr -d ' \n' <"$1"; }
+
+# How many points an edit fixes.
+fixed_points() { plain "$1" | sed -n 's/.*"fixed":\[{"indices":\[\([^]]*\)\].*/\1/p' | tr ',' '\n' | wc -l; }
 
 pick() {
   "$programs/sinew-samples" "$work" scan 2>/dev/null
@@ -76,10 +79,27 @@ pick() {
   shot ball
   press k
   sleep 2
+  press ctrl+s
+  name "$work/feet.json"
+  until_done 30 test -s "$work/feet.json"
+  # The tail as well: a double click closes what Shift adds to the feet.
+  press p
+  xdotool keydown shift
+  click 360 340
+  click 392 340
+  click 392 445
+  point 360 445
+  xdotool click --repeat 2 --delay 60 1
+  xdotool keyup shift
+  sleep 0.5
+  shot tail
+  press k
+  sleep 2
   shot marked
 
+  press alt+a
   press shift+o
-  sleep 0.5
+  click 450 370 # the back
   shot volume
   press g x 0 period 2 Return
   shot volume-moved
@@ -114,7 +134,11 @@ pick() {
   sleep 1
   save_and_export
   plain "$work/edit.json" | grep -q '"matrix":\[\[1.4,0,0,' || fail "the saved edit has no scale"
-  plain "$work/edit.json" | grep -q '"fixed":\[{"indices"' || fail "the sphere brush fixed nothing"
+  local feet fixed
+  feet=$(fixed_points "$work/feet.json") fixed=$(fixed_points "$work/edit.json")
+  echo "fixed: $feet points of the feet, $fixed with the tail"
+  [ "$feet" -gt 500 ] || fail "the sphere brush fixed few points"
+  [ "$fixed" -gt $((feet + 100)) ] || fail "the polygon added no tail"
   leave
   same_points "$work/scan.ply" "$work/edit.json"
 }
