@@ -48,6 +48,10 @@ target_link_libraries(test_gpu PRIVATE sinew_gpu glfw GTest::gtest_main)
 add_test(NAME gpu COMMAND test_gpu)
 set_tests_properties(gpu PROPERTIES LABELS gpu TIMEOUT 600)
 
+# In place of a desktop whose file dialog the window asks.
+add_executable(sinew-fake-portal tests/fake_portal/main.cpp)
+target_link_libraries(sinew-fake-portal PRIVATE sinew_common PkgConfig::SYSTEMD)
+
 # The window, used by mouse and keys on a screen of its own; alone, because it waits for what a person would see.
 if(SINEW_EDITOR)
   foreach(what story time splats motion cancel large storm)
@@ -57,8 +61,10 @@ if(SINEW_EDITOR)
   add_test(NAME editor_recover
            COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_recover_test.sh $<TARGET_FILE_DIR:sinew-editor> recover)
   set_tests_properties(editor_recover PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)
-  add_test(NAME editor_see COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_see_test.sh $<TARGET_FILE_DIR:sinew-editor> see)
-  set_tests_properties(editor_see PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)
+  foreach(what see portal)
+    add_test(NAME editor_${what} COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_see_test.sh $<TARGET_FILE_DIR:sinew-editor> ${what})
+    set_tests_properties(editor_${what} PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)
+  endforeach()
   foreach(what select control)
     add_test(NAME editor_${what} COMMAND ${CMAKE_SOURCE_DIR}/tests/apps/editor_select_test.sh $<TARGET_FILE_DIR:sinew-editor> ${what})
     set_tests_properties(editor_${what} PROPERTIES LABELS window TIMEOUT 600 RUN_SERIAL TRUE SKIP_RETURN_CODE 77)

@@ -403,6 +403,8 @@ const std::array table{
             [](C& c) { c.view.show_rest = !c.view.show_rest; }, [](const C& c) { return c.view.show_rest; }},
     Command{"view.ground", "Ground", "View", "", "Show the ground grid.", always,
             [](C& c) { c.view.show_ground = !c.view.show_ground; }, [](const C& c) { return c.view.show_ground; }},
+    Command{"view.column", "Side column", "View", "N", "Show the column with scene, layers and settings.", open,
+            [](C& c) { c.request(Request::Column); }},
     Command{"view.larger_points", "Larger points", "View", "Ctrl+]", "Draw points larger.", always,
             [](C& c) { set_points(c, 0.5); }, nullptr, true},
     Command{"view.smaller_points", "Smaller points", "View", "Ctrl+[", "Draw points smaller.", always,

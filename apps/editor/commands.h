@@ -30,6 +30,7 @@ enum class Request {
   About,
   Preferences,
   NavigationChoice,
+  Column,
   Quit
 };
 

@@ -68,6 +68,7 @@ void Editor::answer(Request request) {
     case Request::About: ui_.about = true; break;
     case Request::Preferences: ui_.settings = true; break;
     case Request::NavigationChoice: ui_.navigation_choice = true; break;
+    case Request::Column: ui_.column_open = !ui_.column_open; break;
     case Request::Quit: quit(); break;
   }
 }

@@ -156,7 +156,9 @@ void show_overlay(Ui& ui) {
   draw_selecting(ui, list);
   list->PopClipRect();
   const ImVec4 panel = choosing_panel(ui);  // that may need their room
-  if (ui.context.session.has_input() && !(panel.z > 0 && panel.y < ui.layout.top + px(88))) show_axes(ui);
+  // In a narrow window they would stand on the tools.
+  const bool room = ui.layout.column > px(80 + 12 + 120) && !(panel.z > 0 && panel.y < ui.layout.top + px(88));
+  if (ui.context.session.has_input() && room) show_axes(ui);
 }
 
 void show_axes(Ui& ui) {

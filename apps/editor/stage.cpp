@@ -78,7 +78,7 @@ void Stage::take_onion(Session& session, const View& view) {
   for (const OnionSkin::Ghost& found : onion_.ghosts()) {
     const std::vector<std::uint32_t> triangles = triangles_of(found.shape->faces);
     Ghost ghost;
-    ghost.away = std::abs(found.away);
+    ghost.away = found.away;
     ghost.points = gpu::create_points(device_, false, found.shape->positions, normals_of(*found.shape, triangles));
     if (!triangles.empty()) ghost.triangles = gpu::create_triangles(device_, triangles);
     ghosts_.push_back(std::move(ghost));
@@ -229,11 +229,14 @@ gpu::Scene Stage::scene(Session& session, const View& view, const Theme& theme, 
       scene.clouds.push_back({.points = &*points_, .size = size, .count = count, .rest = true, .ghost = 0.35});
   }
   for (const Ghost& ghost : ghosts_) {
-    const double opacity = 0.4 / (1 + 0.6 * ghost.away);
+    // Before: cold, after: warm, as on the bars of a light table; the farther, the fainter.
+    const gpu::Color color = ghost.away < 0 ? gpu::Color::hex(0x5aa2f0) : gpu::Color::hex(0xf0924a);
+    const double opacity = 0.6 / (1 + 0.5 * (std::abs(ghost.away) - 1));
     if (ghost.triangles.count > 0)
-      scene.meshes.push_back({.points = &ghost.points, .triangles = &ghost.triangles, .ghost = opacity});
+      scene.meshes.push_back(
+          {.points = &ghost.points, .triangles = &ghost.triangles, .ghost = opacity, .ghost_color = color});
     else
-      scene.clouds.push_back({.points = &ghost.points, .size = size, .ghost = opacity});
+      scene.clouds.push_back({.points = &ghost.points, .size = size, .ghost = 0.5 * opacity, .ghost_color = color});
   }
   add_structure(scene, session, view);
   if (view.show_markers)

@@ -53,7 +53,7 @@ class Stage {
   struct Ghost {
     gpu::Points points;
     gpu::Triangles triangles;
-    int away = 1;  ///< steps from the frame shown
+    int away = 1;  ///< steps from the frame shown; below 0: before
   };
 
   const gpu::Device& device_;

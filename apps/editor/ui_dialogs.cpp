@@ -1,5 +1,6 @@
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "apps/editor/gui.h"
@@ -111,7 +112,8 @@ void show_navigation_choice(Ui& ui) {
 void show_question(Ui& ui) {
   bool shown = !ui.ask.text.empty();
   const bool was_shown = shown;
-  if (widget::begin_dialog(shown, "question", 420, 116)) {
+  const float text = ImGui::CalcTextSize(ui.ask.text.c_str(), nullptr, false, px(396)).y / scale();
+  if (widget::begin_dialog(shown, "question", 420, std::max(116.0f, text + 68))) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(ui.ask.text.c_str());
     ImGui::PopTextWrapPos();

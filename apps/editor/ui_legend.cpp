@@ -112,7 +112,9 @@ void show_legend(Ui& ui) {
   const Coloring& coloring = ui.stage.coloring();
   const View& view = ui.context.view;
   if (!coloring.field || (view.color_by.empty() && !view.heat)) return;
-  const float width = px(112), top = ui.layout.top + px(96);
+  const float width = px(112);
+  if (ui.layout.column < width + px(120)) return;  // there is no room beside the tools
+  const float top = ui.layout.top + px(96);
   const float room = ui.layout.bottom - top - px(96);
   const float height = std::clamp(room, px(72), px(196));
   const ImVec2 at{ui.layout.column - width - px(12), top};

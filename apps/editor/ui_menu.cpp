@@ -101,7 +101,8 @@ bool command_button(Ui& ui, const char* command, const char* icon, float side, c
 void show_menu(Ui& ui) {
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
                       ImVec2(px(8), std::floor(0.5f * (px(measure::menu_bar) - ImGui::GetFontSize()))));
-  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(14), px(6)));
+  const bool narrow = ui.layout.width < px(520);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(narrow ? 8 : 14), px(6)));
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(8), px(8)));
   ImGui::PushStyleColor(ImGuiCol_MenuBarBg, theme().panel);
   if (ImGui::BeginMainMenuBar()) {
@@ -109,7 +110,7 @@ void show_menu(Ui& ui) {
     ImGui::PushFont(fonts().bold);
     ImGui::TextUnformatted("Sinew");
     ImGui::PopFont();
-    ImGui::SameLine(0, px(20));
+    ImGui::SameLine(0, px(narrow ? 10 : 20));
     std::vector<std::string_view> roots;
     for (const Command& command : commands()) {
       const std::string_view root = root_of(command.menu);

@@ -67,32 +67,66 @@ void show_card(Ui& ui, const std::string& path, ImVec2 at) {
   if (pressed) ui.context.session.open(path);
 }
 
-/// Cards, three a row, as many rows as there is room for.
-void show_recent(Ui& ui) {
-  std::vector<std::string> files;
-  for (const std::string& path : ui.context.preferences.recent) {
+/// A recent file where there is no room for cards.
+void show_row(Ui& ui, const std::string& path, float width) {
+  ImGui::PushID(path.c_str());
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const bool pressed = ImGui::InvisibleButton("recent", {width, px(measure::row)});
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  if (ImGui::IsItemHovered())
+    list->AddRectFilled({at.x - px(8), at.y}, {at.x + width + px(8), at.y + px(measure::row)}, packed(theme().hover),
+                        px(4));
+  const float y = at.y + std::round(0.5f * (px(measure::row) - ImGui::GetFontSize()));
+  const std::filesystem::path file(path);
+  const std::string name = widget::cut(file.filename().string(), 0.6f * width);
+  const std::string folder = widget::cut(file.parent_path().filename().string(), 0.35f * width);
+  widget::text_at(list, ImGui::GetFont(), {at.x, y}, theme().text, name);
+  widget::text_at(list, ImGui::GetFont(), {at.x + width - ImGui::CalcTextSize(folder.c_str()).x, y}, theme().faint,
+                  folder);
+  ImGui::PopID();
+  if (pressed) ui.context.session.open(path);
+}
+
+std::vector<std::string> existing(const std::vector<std::string>& recent) {
+  std::vector<std::string> out;
+  for (const std::string& path : recent) {
     std::error_code error;
-    if (std::filesystem::exists(path, error) ||
-        std::filesystem::path(path).filename().string().find_first_of("#%@") != std::string::npos)
-      files.push_back(path);
+    const bool run = std::filesystem::path(path).filename().string().find_first_of("#%@") != std::string::npos;
+    if (run || std::filesystem::exists(path, error)) out.push_back(path);
   }
+  return out;
+}
+
+/// Cards, as many as there is room for, two rows at most; where not even one row fits, names.
+void show_recent(Ui& ui) {
+  const std::vector<std::string> files = existing(ui.context.preferences.recent);
   if (files.empty()) return;
   ImGui::Dummy({0, px(12)});
   widget::heading("RECENT", true);
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float room = ImGui::GetContentRegionAvail().y;
-  const auto rows = static_cast<std::size_t>(std::max(0.0f, (room + px(4)) / px(card_height + 4)));
-  for (std::size_t i = 0; i < std::min(files.size(), std::min<std::size_t>(2, rows) * 3); ++i)
+  const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+  const auto fits = [](float space, float size, float gap) {
+    return static_cast<std::size_t>(std::max(0.0f, (space + gap) / (size + gap)));
+  };
+  const std::size_t across = fits(room.x, px(card_width), px(card_gap));
+  const std::size_t rows = std::min<std::size_t>(2, fits(room.y, px(card_height), px(4)));
+  if (across * rows == 0) {
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(0, 0));
+    for (std::size_t i = 0; i < std::min(files.size(), fits(room.y, px(measure::row), 0)); ++i)
+      show_row(ui, files[i], room.x);
+    ImGui::PopStyleVar();
+    return;
+  }
+  for (std::size_t i = 0; i < std::min(files.size(), rows * across); ++i)
     show_card(ui, files[i],
-              {at.x + static_cast<float>(i % 3) * px(card_width + card_gap),
-               at.y + static_cast<float>(i / 3) * px(card_height + 4)});
+              {at.x + static_cast<float>(i % across) * px(card_width + card_gap),
+               at.y + static_cast<float>(i / across) * px(card_height + 4)});
 }
 
 }  // namespace
 
 void show_start(Ui& ui) {
   if (ui.context.session.has_input() || ui.context.session.job()) return;
-  const float width = px(3 * card_width + 2 * card_gap + 48),
+  const float width = std::min(px(3 * card_width + 2 * card_gap + 48), ui.layout.width - px(16)),
               height = std::min(px(476), ui.layout.bottom - ui.layout.top - px(16));
   const ImVec2 at{std::round(0.5f * (ui.layout.width - width)),
                   std::round(std::max(ui.layout.top + px(8), 0.44f * (ui.layout.height - height)))};

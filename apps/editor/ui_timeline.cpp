@@ -74,17 +74,17 @@ float flag_half(int frame) {
   return 0.5F * widget::size_of(fonts().bold, std::to_string(frame)).x + px(5);
 }
 
-/// What is not played lies in the shade; the ends of the range can be dragged.
+/// What is played is lighter; the ends of the range can be dragged.
 void show_range(Ui& ui, ImDrawList* list, const Track& track) {
   Session& session = ui.context.session;
   const auto [begin, end] = session.play_range();
+  if (begin != track.first || end != track.last)
+    list->AddRectFilled({std::round(track.x(begin)), track.top}, {std::round(track.x(end)), track.bottom},
+                        packed(theme().chosen));
   for (const bool first : {true, false}) {
     const int frame = first ? begin : end;
     if (frame == (first ? track.first : track.last)) continue;
     const float x = std::round(track.x(frame));
-    const float far = first ? track.left - px(8) : track.right + px(8);
-    list->AddRectFilled({std::min(x, far), track.top}, {std::max(x, far), track.bottom}, packed(theme().shade, 0.8F),
-                        px(4), first ? ImDrawFlags_RoundCornersLeft : ImDrawFlags_RoundCornersRight);
     list->AddLine({x, track.top}, {x, track.bottom}, packed(theme().quiet), px(2));
     ImGui::PushID(first ? "begin" : "end");
     ImGui::SetCursorScreenPos({x - px(5), track.bottom - px(8)});
@@ -106,8 +106,6 @@ void show_range(Ui& ui, ImDrawList* list, const Track& track) {
 void draw_ticks(ImDrawList* list, const Track& track, int shown) {
   const int step = tick_step(track);
   const float middle = track.bottom - px(20);
-  list->AddRectFilled({track.left - px(8), track.top}, {track.right + px(8), track.bottom}, packed(theme().field),
-                      px(4));
   for (int frame = (track.first + step - 1) / step * step; frame <= track.last; frame += step) {
     const float x = std::round(track.x(frame));
     list->AddLine({x, middle}, {x, middle + px(5)}, packed(theme().faint));
@@ -229,8 +227,10 @@ void show_timeline(Ui& ui) {
   track.first = session.frames().front();
   track.last = session.frames().back();
   scrub(session, track);
-  draw_ticks(list, track, session.wanted_frame());
+  list->AddRectFilled({track.left - px(8), track.top}, {track.right + px(8), track.bottom}, packed(theme().field),
+                      px(4));
   show_range(ui, list, track);
+  draw_ticks(list, track, session.wanted_frame());
   draw_head(list, track, session.wanted_frame(), !session.playing() && session.wanted_frame() != session.frame());
   show_keys(ui, list, track);
   ImGui::SetCursorScreenPos({ui.layout.width - pad - px(28), row});

@@ -124,6 +124,7 @@ void show_switches(Ui& ui) {
     for (const char* name : spaces) width += std::round(ImGui::CalcTextSize(name).x) + px(18);
   }
   const float left = tools_right(ui);
+  if (left + width > ui.layout.column) return;  // View and Select have the same switches
   panel_style();
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(4), px(4)));
   widget::begin_panel("switches", {left, ui.layout.top + px(measure::edge)}, {width, px(measure::row) + 2 * px(4)});

@@ -22,7 +22,7 @@ void whole(const char* name, const char* help, int least, int most, const char* 
 }  // namespace
 
 void show_turntable(Ui& ui) {
-  if (!widget::begin_dialog(ui.turntable, "turntable", 360, 220)) return;
+  if (!widget::begin_dialog(ui.turntable, "turntable", 360, 196)) return;
   TurntableChoice& choice = ui.turntable_choice;
   ImGui::PushFont(fonts().bold);
   ImGui::TextUnformatted("Save turntable");

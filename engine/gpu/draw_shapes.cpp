@@ -34,8 +34,8 @@ void bind_points(VkCommandBuffer commands, const Points& points, bool rest) {
   vkCmdBindVertexBuffers(commands, 0, 3, buffers, offsets);
 }
 
-std::uint32_t ghost_color(const Look& look, double opacity) {
-  Color color = look.ghost;
+std::uint32_t ghost_color(const Look& look, Color own, double opacity) {
+  Color color = own.a > 0 ? own : look.ghost;
   color.a = static_cast<std::uint8_t>(std::clamp(256 * opacity, 0.0, 255.0));
   return packed(color);
 }
@@ -122,7 +122,7 @@ shared::DrawConstants cloud_constants(const Scene& scene, const CloudItem& item,
   DrawConstants constants = draw_constants(scene, *item.points, extent);
   constants.size = static_cast<float>(item.size);
   if (item.ghost > 0) constants.flags |= shared::draw_ghost;
-  constants.ghost_color = ghost_color(scene.look, item.ghost);
+  constants.ghost_color = ghost_color(scene.look, item.ghost_color, item.ghost);
   return constants;
 }
 
@@ -130,7 +130,7 @@ DrawConstants mesh_constants(const Scene& scene, const MeshItem& item, VkExtent2
   DrawConstants constants = draw_constants(scene, *item.points, extent);
   if (item.flat || !item.points->has_normals) constants.flags |= shared::draw_flat;
   if (item.ghost > 0) constants.flags |= shared::draw_ghost;
-  constants.ghost_color = ghost_color(scene.look, item.ghost);
+  constants.ghost_color = ghost_color(scene.look, item.ghost_color, item.ghost);
   return constants;
 }
 

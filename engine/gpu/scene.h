@@ -30,8 +30,9 @@ struct CloudItem {
   double size = 2;  ///< diameter, pixels
   /// Draw only so many: the first of the points' order, or of the points where they have none.
   std::size_t count = ~std::size_t{0};
-  bool rest = false;  ///< the rest shape in place of the bent one
-  double ghost = 0;   ///< 0: solid; otherwise opacity of a see-through ghost in the look's ghost colour
+  bool rest = false;              ///< the rest shape in place of the bent one
+  double ghost = 0;               ///< 0: solid; otherwise opacity of a see-through ghost
+  Color ghost_color{0, 0, 0, 0};  ///< of the ghost; with opacity 0 the look's
 };
 
 /// Triangles, seen from both sides.
@@ -41,6 +42,7 @@ struct MeshItem {
   bool flat = false;  ///< one normal a face; otherwise the points' normals
   bool rest = false;
   double ghost = 0;
+  Color ghost_color{0, 0, 0, 0};
 };
 
 struct Splats;

@@ -1,17 +1,22 @@
 #!/usr/bin/env bash
-# editor_see_test.sh PROGRAMS see
+# editor_see_test.sh PROGRAMS see|portal
 #
 # Uses the window as a person would, as editor_test.sh does:
 #   see    opens one of two numbered scans, which are offered as a sequence; goes on with the scan and edits it; colours it
 #          by what the edit does and drags the range at the legend; the copied command line, run by a shell, must come to
 #          the points that the window exports; a turntable is written while the window goes on, another is cancelled; the
 #          next start shows the scan among the recent files
+#   portal a desktop is there, whose own file dialog is asked: to open, and to export to a format that loses something,
+#          which the window then tells before it writes
 # SHOTS=FOLDER keeps screenshots. Exit status 77: skipped, with the reason.
 source "$(dirname "$0")/window.sh"
 
 for tool in xclip import convert; do
   command -v "$tool" >/dev/null || { echo "skipped: $tool is not installed"; exit 77; }
 done
+
+portal_pid='' bus_pid=''
+trap '[ -z "$portal_pid" ] || kill "$portal_pid" "$bus_pid" 2>/dev/null || true; finish' EXIT
 
 # The command that these words find.
 palette() {
@@ -195,6 +200,43 @@ sequence() {
   shot sequence
   leave
 }
+
+portal() {
+  command -v dbus-daemon >/dev/null || { echo "skipped: dbus-daemon is not installed"; exit 77; }
+  "$programs/sinew-samples" "$work" scan 2>/dev/null
+  mv "$work/scan.ply" "$work/my scan.ply"
+  dbus-daemon --session --nofork --print-address >"$work/bus" 2>/dev/null &
+  bus_pid=$!
+  until_done 10 test -s "$work/bus"
+  DBUS_SESSION_BUS_ADDRESS=$(head -n 1 "$work/bus")
+  "$programs/sinew-fake-portal" "$work/my scan.ply" "$work/bent.off" >"$work/ready" &
+  portal_pid=$!
+  until_done 10 grep -q ready "$work/ready"
+  start_editor
+  until_done 60 title '^Sinew$'
+  sleep 1
+  press Return # the standard navigation
+  press ctrl+o
+  until_done 60 title '^my scan.ply - Sinew$'
+  sleep 1
+  shot open
+  press ctrl+e
+  sleep 1
+  shot told
+  [ ! -e "$work/bent.off" ] || fail "exported before it was told what is lost"
+  point "${export[@]}"
+  xdotool click 1
+  until_done 30 test -s "$work/bent.off"
+  # The desktop leaves: the program's own dialog comes.
+  kill "$portal_pid" "$bus_pid"
+  sleep 1
+  press ctrl+o
+  sleep 1
+  shot plain
+  press Escape
+  leave
+}
+export=(670 332)
 
 start_screen
 "$what"

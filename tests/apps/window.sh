@@ -14,7 +14,7 @@ finish() {
   rm -rf "$work"
 }
 trap finish EXIT
-export HOME=$work/home XDG_CONFIG_HOME=$work/config XDG_STATE_HOME=$work/state XDG_CACHE_HOME=$work/cache
+export HOME=$work/home XDG_CONFIG_HOME=$work/config XDG_STATE_HOME=$work/state XDG_CACHE_HOME=$work/home/.cache
 export SINEW_VALIDATION=${SINEW_VALIDATION:-1}
 export DBUS_SESSION_BUS_ADDRESS=unix:path=$work/no-bus # the program's own file dialogs
 mkdir -p "$HOME"
