@@ -41,6 +41,8 @@ std::string shell_word(const std::string& text) {
 std::string bent_name(const std::string& input, bool moves) {
   const fs::path path(input);
   const std::string name = path.filename().string();
+  // Its scans keep their names, which would be those of the input's beside it.
+  if (path.extension() == ".conf") return (path.parent_path() / (path.stem().string() + "-bent")).string() + "/";
   // Before the place of the frame's number, or before the extension.
   std::size_t at = name.find_first_of("#@%");
   if (!moves || at == std::string::npos) at = std::min(name.rfind('.'), name.size());

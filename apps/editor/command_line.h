@@ -11,7 +11,7 @@ namespace sinew::editor {
 std::string shell_word(const std::string& text);
 
 /// Where the command writes to: beside the input, "bunny.ply" as "bunny-bent.ply", "walk.####.obj" as
-/// "walk-bent.####.obj"; PC2 for a still that a motion drives.
+/// "walk-bent.####.obj", a set of scans to a folder "scans-bent/"; PC2 for a still that a motion drives.
 std::string bent_name(const std::string& input, bool moves);
 
 /// What to call the command line: "sinew" where a shell finds it in PATH, else the one beside this program, quoted.

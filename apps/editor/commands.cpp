@@ -189,7 +189,7 @@ const std::array table{
             "Open a shape, an edit, a folder of poses, or a motion for a solid.", always,
             [](C& c) { c.request(Request::Open); }},
     Command{"file.open_run", "Open all frames", "File", "", "Open all numbered files that this one is one of.", in_run,
-            [](C& c) { c.session.open(pattern_of_run(c.session.input_path())); }},
+            [](C& c) { c.request(Request::OpenRun); }},
     Command{"file.save", "Save edit", "File", "Ctrl+S", "Write the edit to its file.", open, save, nullptr, true},
     Command{"file.save_as", "Save edit as...", "File", "Ctrl+Shift+S", "Write the edit to another file.", open,
             [](C& c) { c.request(Request::SaveAs); }},

@@ -17,6 +17,7 @@ namespace sinew::editor {
 
 enum class Request {
   Open,
+  OpenRun,
   AddPoses,
   AddControlPoints,
   SaveAs,

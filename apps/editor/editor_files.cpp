@@ -43,6 +43,11 @@ bool goes_on_top(const std::string& path) {
 void Editor::answer(Request request) {
   switch (request) {
     case Request::Open: choose_file_to_open(); break;
+    case Request::OpenRun: {
+      const std::string run = pattern_of_run(session_.input_path());
+      unless_unsaved(run, [this, run] { session_.open_shape(run); });
+      break;
+    }
     case Request::AddPoses: choose_poses(); break;
     case Request::AddControlPoints: choose_control_points(); break;
     case Request::SaveAs: choose_file_to_save(); break;

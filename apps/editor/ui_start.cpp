@@ -100,7 +100,7 @@ std::vector<std::string> existing(const std::vector<std::string>& recent) {
 /// Cards, as many as there is room for, two rows at most; where not even one row fits, names.
 void show_recent(Ui& ui) {
   const std::vector<std::string> files = existing(ui.context.preferences.recent);
-  if (files.empty()) return;
+  if (files.empty() || ImGui::GetContentRegionAvail().y < px(12 + 24 + measure::row)) return;
   ImGui::Dummy({0, px(12)});
   widget::heading("RECENT", true);
   const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();

@@ -72,15 +72,17 @@ float bar_height(float side, int columns) {
   return height;
 }
 
-/// As few as there is room for.
+/// As few as the window's height allows.
 int columns_of(const Ui& ui) {
-  const float room = ui.layout.bottom - ui.layout.top - 2 * px(measure::edge), side = px(measure::tool_button);
-  return bar_height(side, 1) <= room ? 1 : bar_height(side, 2) <= room ? 2 : 3;
+  const float room = ui.layout.bottom - ui.layout.top - 2 * px(measure::edge);
+  int columns = 1;
+  while (columns < 4 && bar_height(px(measure::tool_button), columns) > room) ++columns;
+  return columns;
 }
 
 float bar_width(int columns) {
-  if (columns == 1) return px(measure::tool_column);
-  return static_cast<float>(columns) * (px(measure::tool_button) + px(2)) + px(8);
+  const auto count = static_cast<float>(columns);
+  return columns == 1 ? px(measure::tool_column) : count * px(measure::tool_button) + (count - 1) * px(2) + 2 * px(5);
 }
 
 void show_bar(Ui& ui) {

@@ -407,6 +407,26 @@ TEST_F(EditorSeeing, TheCopiedCommandLineDoesTheSame) {
   }
 }
 
+TEST_F(EditorSeeing, TheCopiedCommandLineOfASetOfScansWritesThemToAFolder) {
+  for (const std::string name : {"a.ply", "b.ply"}) io::write(folder / name, bar_at(1, 20), true);
+  const std::string conf = "bmesh a.ply 0 0 0 0 0 0 1\nbmesh b.ply 0 0 0.5 0 0 0 1\n";
+  io::save_bytes(folder / "scans.conf", std::as_bytes(std::span(conf)), true);
+  session.open(folder / "scans.conf");
+  ASSERT_TRUE(until(session, [&] { return session.has_input(); })) << errors_of(session);
+  mark_ends();
+  move_handle(Vec3(0, 0.2, 0));
+  session.end_drag();
+  session.save_edit(folder / "edit.json");
+  ASSERT_TRUE(until(session, [&] { return !session.dirty(); })) << errors_of(session);
+  const std::string line = command_line_of(session, shell_word(SINEW_BINARY_DIR "/bin/sinew"));
+  ASSERT_EQ(std::system((line + " 2>/dev/null").c_str()), 0) << line;
+  const std::shared_ptr<const Shape> bent = io::read(folder / "scans-bent/scans.conf");
+  const std::span<const Vec3> positions = session.bent_positions();
+  ASSERT_EQ(bent->size(), positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    EXPECT_LT((bent->positions[i] + bent->origin - positions[i] - session.input()->origin).norm(), 1e-5);
+}
+
 TEST_F(EditorSeeing, AnExportIsToldBeforeWhatItLoses) {
   Shape shape = bar_at(1);
   const Index corners[] = {0, 1, 6};
