@@ -48,12 +48,6 @@ same_points() {
   ! within "$moved" 0.05 || fail "nothing moved"
 }
 
-click() {
-  point "$1" "$2"
-  xdotool click 1
-  sleep 0.8
-}
-
 # The weights of an edit, as "0.8 null".
 weights_of() { tr -d '\n' <"$1" | sed -n 's/.*"example_weights": *\[\([^]]*\)\].*/\1/p' | tr -s ', ' ' ' | sed 's/^ //; s/ $//'; }
 

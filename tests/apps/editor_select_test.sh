@@ -10,12 +10,6 @@
 # SHOTS=FOLDER keeps screenshots. Exit status 77: skipped, with the reason.
 source "$(dirname "$0")/window.sh"
 
-click() {
-  point "$1" "$2"
-  xdotool click 1
-  sleep 0.5
-}
-
 # by_name WORDS: a command, by the palette.
 by_name() {
   press ctrl+p

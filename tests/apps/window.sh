@@ -57,6 +57,12 @@ shot() { if [ -n "${SHOTS:-}" ] && command -v import >/dev/null; then sleep 1; i
 press() { xdotool key "$@"; sleep 0.6; }
 point() { xdotool mousemove "$1" "$2"; sleep 0.15; }
 
+click() {
+  point "$1" "$2"
+  xdotool click 1
+  sleep 0.8
+}
+
 # drag X Y X Y: with the left button, in a few steps.
 drag() {
   point "$1" "$2"
