@@ -32,7 +32,8 @@ struct Track {
 
 /// 1, 2, 5, 10, 20 ...: the distance of ticks that leaves room for their numbers.
 int tick_step(const Track& track) {
-  const float room = px(48) / std::max(1e-3F, (track.right - track.left) / static_cast<float>(std::max(1, track.last - track.first)));
+  const float room =
+      px(48) / std::max(1e-3F, (track.right - track.left) / static_cast<float>(std::max(1, track.last - track.first)));
   for (int power = 1;; power *= 10)
     for (const int digit : {1, 2, 5})
       if (static_cast<float>(power * digit) >= room) return power * digit;
