@@ -64,7 +64,7 @@ struct RasterScratch {
   std::vector<float> depths;          ///< padded
   std::vector<std::uint32_t> colors;  ///< of the raster, where it is finer than the picture
   std::vector<RasterSpan> covered;    ///< of each row
-  std::vector<std::uint8_t> outlined;
+  std::vector<std::uint8_t> selected;
 };
 
 /// The whole picture: backdrop, shapes under their light, eye-dome lighting, outline of what is selected, ghosts,

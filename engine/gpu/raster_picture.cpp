@@ -144,25 +144,43 @@ void shade_row(const Raster& raster, int y, std::vector<float>& shades) {
 
 /// Pixels beside selected ones take the outline's colour (compose.frag). Found first and coloured afterwards, because
 /// rows read the rows around them.
-void draw_outline(const Raster& raster, std::vector<std::uint8_t>& outlined) {
-  const int width = raster.solid.width, height = raster.solid.height, reach = raster.scale;
-  outlined.assign(raster.solid.keys.size(), 0);
-  parallel_for(static_cast<std::size_t>(height), 16, [&](std::size_t begin, std::size_t end) {
-    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-      const int top = std::max(0, y - reach), bottom = std::min(height - 1, y + reach);
-      std::uint8_t* row = outlined.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(width);
-      for (int x = 0; x < width; ++x) {
-        if ((raster.color_row(y)[x] & selected_bit) != 0) continue;
-        std::uint32_t near = 0;
-        for (int v = top; v <= bottom; ++v)
-          for (int u = std::max(0, x - reach); u <= std::min(width - 1, x + reach); ++u) near |= raster.color_row(v)[u];
-        row[x] = (near & selected_bit) != 0;
+void draw_outline(const Raster& raster, std::vector<std::uint8_t>& selected) {
+  const auto width = static_cast<std::size_t>(raster.solid.width),
+             height = static_cast<std::size_t>(raster.solid.height), reach = static_cast<std::size_t>(raster.scale);
+  selected.resize(width * height);
+  std::vector<std::uint8_t> any(height);  // of a row's pixels is selected
+  parallel_for(height, 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) {
+      const std::uint32_t* colors = raster.color_row(static_cast<int>(y));
+      std::uint8_t* row = selected.data() + y * width;
+      std::uint32_t all = 0;
+      for (std::size_t x = 0; x < width; ++x) {
+        row[x] = (colors[x] & selected_bit) != 0;
+        all |= colors[x];
       }
+      any[y] = (all & selected_bit) != 0;
     }
   });
-  parallel_for(outlined.size(), 1 << 16, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      if (outlined[i] != 0) raster.colors[i] = raster.constants.outline & 0xffffffu;
+  const std::uint32_t outline = raster.constants.outline & 0xffffffu;
+  parallel_for(height, 16, [&](std::size_t begin, std::size_t end) {
+    std::vector<std::uint8_t> near(width + 2 * reach);  // of the rows above and below, `reach` columns to the right
+    for (std::size_t y = begin; y < end; ++y) {
+      const std::size_t top = y - std::min(y, reach), bottom = std::min(height - 1, y + reach);
+      std::fill(near.begin(), near.end(), std::uint8_t{0});
+      bool found = false;
+      for (std::size_t v = top; v <= bottom; ++v) {
+        if (any[v] == 0) continue;
+        found = true;
+        for (std::size_t x = 0; x < width; ++x) near[x + reach] |= selected[v * width + x];
+      }
+      if (!found) continue;
+      std::uint32_t* colors = raster.color_row(static_cast<int>(y));
+      for (std::size_t x = 0; x < width; ++x) {
+        std::uint8_t hit = 0;
+        for (std::size_t k = 0; k <= 2 * reach; ++k) hit |= near[x + k];
+        if (hit > selected[y * width + x]) colors[x] = outline;
+      }
+    }
   });
 }
 
@@ -238,7 +256,7 @@ void raster_scene(RasterScratch& scratch, const Scene& scene, VkExtent2D extent,
       blend_ground(state, static_cast<int>(y), ground_row, grid);
     }
   });
-  if (state.constants.outline != 0) draw_outline(state, scratch.outlined);
+  if (state.constants.outline != 0) draw_outline(state, scratch.selected);
   write_output(state, extent, out);
   raster_splats(scene, extent, out);
 }
