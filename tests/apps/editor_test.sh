@@ -34,9 +34,12 @@ story() {
   drag 370 490 570 600
   press k
   sleep 2
+  looks_like marked
   shot marked
   follow 592 170 60
   sleep 2
+  looks_like dragged
+  ! within "$(unlike "$work/marked.png" "$work/dragged.png")" 0.04 || fail "pictures of two shapes are not told apart"
   shot dragged
   until_done 10 title '^scan.ply \* - Sinew$'
   press ctrl+z

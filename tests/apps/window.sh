@@ -54,6 +54,29 @@ start_editor() {
 
 title() { xdotool search --name "$1"; }
 shot() { if [ -n "${SHOTS:-}" ] && command -v import >/dev/null; then sleep 1; import -window root "$SHOTS/$what-$1.png"; fi; }
+
+# small FILE: what is on the screen, an eighth of its size.
+small() { import -window root -resize 160x90 -strip "$1"; }
+# How far two pictures are apart: root mean square of their colours, 0 to 1.
+unlike() { compare -metric RMSE "$1" "$2" null: 2>&1 | sed 's/.*(\(.*\))/\1/'; }
+
+# looks_like NAME: the window is as in tests/pictures/window/NAME.png but for times and counts in its text. With
+# SINEW_NEW_PICTURES=1 that is made anew.
+looks_like() {
+  local wanted
+  wanted=$(dirname "${BASH_SOURCE[0]}")/../pictures/window/$1.png
+  sleep 1
+  small "$work/$1.png"
+  if [ -n "${SINEW_NEW_PICTURES:-}" ]; then
+    mkdir -p "$(dirname "$wanted")"
+    cp "$work/$1.png" "$wanted"
+  fi
+  local apart
+  apart=$(unlike "$wanted" "$work/$1.png")
+  echo "the window and its picture $1 are $apart apart"
+  within "$apart" 0.03 || fail "the window does not look like tests/pictures/window/$1.png"
+}
+
 press() { xdotool key "$@"; sleep 0.6; }
 point() { xdotool mousemove "$1" "$2"; sleep 0.15; }
 
