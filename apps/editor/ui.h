@@ -114,9 +114,10 @@ void show_job(Ui& ui);
 void show_toasts(Ui& ui);
 void show_history(Ui& ui);
 void show_recovery(Ui& ui);
-void show_legend(Ui& ui);     ///< of what the colours stand for, beside the scene
-void show_coloring(Ui& ui);   ///< rows of the column
-void show_turntable(Ui& ui);  ///< the dialog
+void show_legend(Ui& ui);         ///< of what the colours stand for, beside the scene
+float legend_left(const Ui& ui);  ///< its left edge, pixels; that of the column where it is not shown
+void show_coloring(Ui& ui);       ///< rows of the column
+void show_turntable(Ui& ui);      ///< the dialog
 void show_palette(Ui& ui);
 void show_keymap(Ui& ui);
 void show_dialogs(Ui& ui);  ///< about, settings, navigation

@@ -107,17 +107,22 @@ void drag(Ui& ui, const Bar& bar, const Coloring& coloring) {
 
 }  // namespace
 
+float legend_left(const Ui& ui) {
+  const View& view = ui.context.view;
+  const bool colored = ui.stage.coloring().field && (!view.color_by.empty() || view.heat);
+  const bool room = ui.layout.column >= px(112 + 120);  // beside the tools
+  const bool shown = ui.context.session.has_input() && colored && room;
+  return ui.layout.column - (shown ? px(112 + 12) : 0);
+}
+
 void show_legend(Ui& ui) {
-  if (!ui.context.session.has_input()) return;
+  if (legend_left(ui) == ui.layout.column) return;
   const Coloring& coloring = ui.stage.coloring();
   const View& view = ui.context.view;
-  if (!coloring.field || (view.color_by.empty() && !view.heat)) return;
-  const float width = px(112);
-  if (ui.layout.column < width + px(120)) return;  // there is no room beside the tools
-  const float top = ui.layout.top + px(96);
+  const float width = px(112), top = ui.layout.top + px(96);
   const float room = ui.layout.bottom - top - px(96);
   const float height = std::clamp(room, px(72), px(196));
-  const ImVec2 at{ui.layout.column - width - px(12), top};
+  const ImVec2 at{legend_left(ui), top};
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, px(6));
   widget::begin_panel("legend", at, {width, height});
   ImDrawList* list = ImGui::GetWindowDrawList();

@@ -30,11 +30,12 @@ recover_work() {
   until_done 60 title '^Sinew$'
   sleep 2
   shot "$1-offered"
-  press Return
-  until_done 30 title '^scan.ply \* - Sinew$'
+  until_done 60 taken
   sleep 2
   shot "$1"
 }
+# Enter, and what it recovers is open.
+taken() { press Return; title '^scan.ply \* - Sinew$'; }
 
 recover() {
   "$programs/sinew-samples" "$work" scan 2>/dev/null
