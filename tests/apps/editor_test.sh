@@ -39,7 +39,7 @@ story() {
   follow 592 170 60
   sleep 2
   looks_like dragged
-  ! within "$(unlike "$work/marked.png" "$work/dragged.png")" 0.04 || fail "pictures of two shapes are not told apart"
+  ! within "$(unlike "$work/marked.png" "$work/dragged.png")" 0.02 || fail "pictures of two shapes are not told apart"
   shot dragged
   until_done 10 title '^scan.ply \* - Sinew$'
   press ctrl+z
