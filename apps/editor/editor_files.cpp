@@ -203,7 +203,7 @@ void Editor::draw_screenshot(const std::string& path) {
   gpu::RendererHandle renderer = gpu::create_renderer(*device_, paths_, gpu::offscreen_format);
   const gpu::Offscreen offscreen = gpu::create_offscreen(*device_, swapchain_.extent);
   const gpu::Scene scene = stage_.scene(session_, view_, theme(), stage_.points());
-  gpu::write_png(path, gpu::render_picture(*device_, *renderer, offscreen, scene));
+  io::save_bytes(path, gpu::png_bytes(gpu::render_picture(*device_, *renderer, offscreen, scene)), true);
 }
 
 void Editor::quit() {

@@ -121,7 +121,7 @@ void draw_portrait(const Portrait& portrait, const Tell& tell) {
       gpu::fit_depth(drawn.scene.camera, drawn.bounds);
       const gpu::Picture picture = gpu::render_picture(*device, *renderer, offscreen, drawn.scene);
       if (const fs::path folder = fs::path(path).parent_path(); !folder.empty()) fs::create_directories(folder);
-      gpu::write_png(path, picture);
+      io::save_bytes(path, gpu::png_bytes(picture), true);
     }
   }
   for (const std::string& message : messages->take()) throw InputError("validation: " + message);

@@ -179,7 +179,7 @@ void draw(const Shape& input, const document::Evaluation* evaluation, const View
     drawn.scene.camera = drawn.cameras[i];
     gpu::Picture picture = gpu::render_picture(*device, *renderer, offscreen, drawn.scene);
     if (drawn.field) draw_legend(picture, *drawn.field);
-    gpu::write_png(names[i], picture);
+    io::save_bytes(names[i], gpu::png_bytes(picture), true);
   }
 }
 

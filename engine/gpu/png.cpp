@@ -2,36 +2,26 @@
 
 #include <png.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-
 #include "engine/geometry/check.h"
 #include "engine/geometry/error.h"
 
 namespace sinew::gpu {
 
-void write_png(const std::string& path, const Picture& picture) {
+std::vector<std::byte> png_bytes(const Picture& picture) {
   CHECK(picture.width > 0 && picture.height > 0 &&
         picture.rgba.size() ==
             std::size_t{4} * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
-  const std::string temporary = path + ".part";
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(picture.width);
   image.height = static_cast<png_uint_32>(picture.height);
   image.format = PNG_FORMAT_RGBA;
-  errno = 0;
-  bool written = png_image_write_to_file(&image, temporary.c_str(), 0, picture.rgba.data(), 0, nullptr) != 0;
-  std::string found = errno != 0 ? std::strerror(errno) : image.message;
-  if (written && std::rename(temporary.c_str(), path.c_str()) != 0) {
-    written = false;
-    found = std::strerror(errno);
-  }
-  png_image_free(&image);
-  if (written) return;
-  std::remove(temporary.c_str());
-  throw file_error(path, "a file that can be written", found);
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+  std::vector<std::byte> out(size);
+  const int written = png_image_write_to_memory(&image, out.data(), &size, 0, picture.rgba.data(), 0, nullptr);
+  CHECK(written != 0, std::string(image.message));
+  out.resize(size);
+  return out;
 }
 
 Picture read_png(const std::string& path) {

@@ -60,11 +60,11 @@ small() { import -window root -resize 160x90 -strip "$1"; }
 # How far two pictures are apart: root mean square of their colours, 0 to 1.
 unlike() { { compare -metric RMSE "$1" "$2" null: 2>&1 || true; } | sed 's/.*(\(.*\))/\1/'; }
 
-# looks_like NAME: the window is as in tests/pictures/window/NAME.png but for times and counts in its text. With
+# looks_like NAME: the window is as in tests/apps/looks/NAME.png but for times and counts in its text. With
 # SINEW_NEW_PICTURES=1 that is made anew.
 looks_like() {
   local wanted
-  wanted=$(dirname "${BASH_SOURCE[0]}")/../pictures/window/$1.png
+  wanted=$(dirname "${BASH_SOURCE[0]}")/looks/$1.png
   sleep 1
   small "$work/$1.png"
   if [ -n "${SINEW_NEW_PICTURES:-}" ]; then
@@ -74,7 +74,7 @@ looks_like() {
   local apart
   apart=$(unlike "$wanted" "$work/$1.png")
   echo "the window and its picture $1 are $apart apart"
-  within "$apart" 0.02 || fail "the window does not look like tests/pictures/window/$1.png"
+  within "$apart" 0.02 || fail "the window does not look like tests/apps/looks/$1.png"
 }
 
 press() { xdotool key "$@"; sleep 0.6; }
