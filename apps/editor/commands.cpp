@@ -183,7 +183,21 @@ bool has_tool(const Context& c) {
   return c.view.tool == tool;
 }
 
+/// Colours by what the edit does, or by it no longer.
+template <document::FieldKind kind>
+void show_heat(Context& c) {
+  const bool shown = c.view.heat == kind;
+  c.view.color_range.reset();
+  c.view.heat.reset();
+  if (!shown) c.view.heat = kind;
+}
+template <document::FieldKind kind>
+bool shows_heat(const Context& c) {
+  return c.view.heat == kind;
+}
+
 using C = Context;
+using document::FieldKind;
 const std::array table{
     Command{"file.open", "Open...", "File", "Ctrl+O",
             "Open a shape, an edit, a folder of poses, or a motion for a solid.", always,
@@ -399,6 +413,17 @@ const std::array table{
             [](C& c) { c.view.cut_tets = !c.view.cut_tets; }, [](const C& c) { return c.view.cut_tets; }},
     Command{"view.markers", "Markers", "View", "", "Show the markers and bones of a motion.", always,
             [](C& c) { c.view.show_markers = !c.view.show_markers; }, [](const C& c) { return c.view.show_markers; }},
+    Command{"view.displacement", "Colour by displacement", "View/Colour by", "", "How far each point was moved.",
+            layered, show_heat<FieldKind::Displacement>, shows_heat<FieldKind::Displacement>},
+    Command{"view.stretch", "Colour by stretch", "View/Colour by", "", "How much longer or shorter the shape is there.",
+            layered, show_heat<FieldKind::Stretch>, shows_heat<FieldKind::Stretch>},
+    Command{"view.rotation", "Colour by rotation", "View/Colour by", "", "How far the shape is turned there.", layered,
+            show_heat<FieldKind::Rotation>, shows_heat<FieldKind::Rotation>},
+    Command{"view.energy", "Colour by energy", "View/Colour by", "", "Where the structure of the layer is strained.",
+            layered, show_heat<FieldKind::Energy>, shows_heat<FieldKind::Energy>},
+    Command{"view.influence", "Colour by influence", "View/Colour by", "",
+            "What follows the clicked point, or the chosen handle.", layered, show_heat<FieldKind::Influence>,
+            shows_heat<FieldKind::Influence>},
     Command{"view.rest", "Rest shape", "View", "", "Show a ghost of the shape at rest.", always,
             [](C& c) { c.view.show_rest = !c.view.show_rest; }, [](const C& c) { return c.view.show_rest; }},
     Command{"view.ground", "Ground", "View", "", "Show the ground grid.", always,

@@ -202,7 +202,7 @@ void Editor::take_changes() {
   const Changed changed = session_.poll();
   stage_.note(changed);
   for (std::string& problem : ui_.recovery.poll()) session_.notify(Severity::Warning, std::move(problem));
-  if (stage_.poll()) frames_wanted_ = std::max(frames_wanted_, 1);
+  if (stage_.poll()) frames_wanted_ = 2;  // panels show what the first of them has taken in
   take_pictures();
   if (changed.marks || changed.input) ui_.marks = count_marks(session_);
   if (changed.input) show_new_input();
@@ -216,6 +216,7 @@ void Editor::take_changes() {
 
 void Editor::show_new_input() {
   view_.glide.stop();
+  std::erase_if(ui_.toasts, [](const Toast& toast) { return now() - toast.since > 1; });  // of what was open before
   if (!session_.has_input()) return;
   ui_.layout = layout_of(ui_, static_cast<float>(view_.size.x()), static_cast<float>(view_.size.y()));
   view_.camera.shift = {static_cast<double>(ui_.layout.column / ui_.layout.width) - 1,

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "apps/editor/command_line.h"
 #include "apps/editor/editor.h"
 #include "apps/editor/export_notes.h"
 #include "engine/geometry/error.h"
@@ -173,12 +174,11 @@ void Editor::choose_file_to_save() {
 }
 
 void Editor::choose_file_to_export() {
-  const std::string extension = fs::path(session_.input_path()).extension().string();
   ask_for_file({.title = "Export the bent shape",
                 .action = "Export",
                 .save = true,
                 .extensions = extensions(true),
-                .start = beside(session_.input_path(), "-bent", extension),
+                .start = bent_name(session_.input_path(), session_.moves()),
                 .note = "Positions and normals change; everything else is written as it was read.",
                 .folder_action = {},
                 .folder_help = {},

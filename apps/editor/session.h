@@ -73,7 +73,7 @@ struct ExampleView {
   std::optional<double> weight;  ///< that is shown; nothing while the examples are not read
 };
 
-/// "walk.0001.obj" as "walk.%04d.obj": the run that a numbered file may be one of; empty where it has no number.
+/// "walk.0001.obj" as "walk.####.obj": the run that a numbered file may be one of; empty where it has no number.
 std::string pattern_of_run(const std::string& path);
 
 /// What is odd about a motion, to tell: a sentence each, and not too many.

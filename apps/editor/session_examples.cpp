@@ -9,6 +9,7 @@
 #include "engine/document/settings.h"
 #include "engine/io/control_points.h"
 #include "engine/io/motion.h"
+#include "engine/io/sequence.h"
 
 namespace sinew::editor {
 
@@ -121,11 +122,18 @@ void Session::open_poses(const Opening& opening) {
       }
     };
     if (may_be_shape) {
-      if (const std::string difference = sentence_of_failure(look); !difference.empty())
-        return [this, difference, path = opening.paths.front()] {
-          notify(Severity::Info, difference);
-          declined_ = path;
+      if (const std::string difference = sentence_of_failure(look); !difference.empty()) {
+        // A file that can't be read is no other shape either.
+        const std::string& path = opening.paths.front();
+        const std::string broken = sentence_of_failure([&] {
+          const Sequence read = io::open_sequence(path);
+          read.load(read.frames.front());
+        });
+        return [this, difference, broken, path] {
+          notify(broken.empty() ? Severity::Info : Severity::Warning, broken.empty() ? difference : broken);
+          if (broken.empty()) declined_ = path;
         };
+      }
     } else {
       look();
     }

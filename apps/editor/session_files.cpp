@@ -54,7 +54,7 @@ std::string pattern_of_run(const std::string& path) {
   while (begin > 0 && name[begin - 1] >= '0' && name[begin - 1] <= '9') --begin;
   const std::size_t width = dot - begin;
   if (width == 0 || width > 9) return {};
-  const std::string pattern = name.substr(0, begin) + "%0" + std::to_string(width) + "d" + name.substr(dot);
+  const std::string pattern = name.substr(0, begin) + (width == 1 ? "@" : std::string(width, '#')) + name.substr(dot);
   return (fs::path(path).parent_path() / pattern).string();
 }
 
@@ -132,7 +132,7 @@ void Session::read(const std::string& path) {
       opened->on_disk = false;  // the file lacks the input's name
       read_motion(*opened);
     } else {
-      throw file_error(path, "an edit with \"inputs\", or its shape opened before", "an edit alone");
+      throw InputError(path + ": this edit names no shape; open its shape first, then the edit");
     }
     opened->project.inputs = {opened->input_path};
     prepare(*opened);

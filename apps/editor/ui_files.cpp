@@ -14,6 +14,8 @@
 #include "apps/editor/icons.h"
 #include "apps/editor/theme.h"
 #include "apps/editor/widgets.h"
+#include "engine/geometry/error.h"
+#include "engine/io/frame_pattern.h"
 
 namespace sinew::editor {
 
@@ -22,6 +24,16 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::size_t most_notes = 4;
+
+/// "walk.####.obj", where there are such files.
+bool is_run(const std::string& path) {
+  try {
+    const std::optional<io::FramePattern> pattern = io::frame_pattern(path);
+    return pattern && !io::frames_on_disk(*pattern).empty();
+  } catch (const InputError&) {
+    return false;
+  }
+}
 
 std::string lower(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
@@ -110,7 +122,7 @@ void FileDialog::take(const std::string& path) {
     ask_again_ = true;
     return;
   }
-  if (!request_.save && !fs::exists(path, error)) {
+  if (!request_.save && !fs::exists(path, error) && !is_run(path)) {
     error_ = path + ": expected a file, found none";
     return;
   }

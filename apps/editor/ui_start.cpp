@@ -17,6 +17,7 @@ namespace sinew::editor {
 namespace {
 
 constexpr double toast_seconds = 6;
+constexpr std::ptrdiff_t most_toasts = 3;
 constexpr double job_patience = 0.2;  ///< what takes less is not shown
 constexpr float job_width = 380, job_height = 64;
 
@@ -278,6 +279,7 @@ void show_hints(Ui& ui) {
 
 void show_toasts(Ui& ui) {
   for (Notice& notice : ui.context.session.take_notices()) ui.toasts.push_back({std::move(notice), now()});
+  if (std::ssize(ui.toasts) > most_toasts) ui.toasts.erase(ui.toasts.begin(), ui.toasts.end() - most_toasts);
   const float right = (ui.context.session.has_input() ? ui.layout.column : ui.layout.width) - px(12);
   float bottom = ui.layout.bottom - px(12);
   // Above the work with its button.

@@ -12,6 +12,11 @@ namespace sinew::editor {
 
 namespace {
 
+/// With its sign, but 0 without.
+std::string percent(double share) {
+  return std::abs(share) < 5e-4 ? "0.0 %" : fmt::format("{:+.1f} %", 100 * share);
+}
+
 /// A run of the status line: what is told in bright, what it is about in quiet.
 struct Piece {
   std::string text;
@@ -60,9 +65,9 @@ std::vector<Group> figures(const Ui& ui) {
   if (figures.build_seconds > 0)
     out.push_back({{{"prepared in ", false}, {fmt::format("{:.2f}", figures.build_seconds), true}, {" s", false}}, 4});
   out.push_back({{{"residual ", false}, {fmt::format("{:.1e}", figures.residual), true}}, 3});
-  out.push_back({{{"max stretch ", false}, {fmt::format("{:+.1f} %", 100 * figures.max_stretch), true}}, 2});
+  out.push_back({{{"max stretch ", false}, {percent(figures.max_stretch), true}}, 2});
   out.push_back({{{"moved ", false},
-                  {(figures.sampled ? "~" : "") + grouped(figures.moved), true},
+                  {(figures.sampled && figures.moved > 0 ? "~" : "") + grouped(figures.moved), true},
                   {" of " + grouped(session.input()->size()), false}},
                  1});
   if (!session.selection().empty())

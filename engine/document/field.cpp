@@ -97,7 +97,7 @@ double stretch_of(const Mat3& M) {
     const double change = std::sqrt(std::max(0.0, solver.eigenvalues()[k])) - 1;
     if (std::abs(change) > std::abs(out)) out = change;
   }
-  return out;
+  return std::abs(out) < 1e-9 ? 0 : out;  // what rounding makes is none
 }
 
 double rotation_of(const Mat3& M) {
@@ -113,7 +113,8 @@ double rotation_of(const Mat3& M) {
   }
   if (!done) R = nearest_rotation(M);
   const Vec3 axis(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
-  return std::atan2(axis.norm(), R.trace() - 1) * (180 / std::numbers::pi);
+  const double degrees = std::atan2(axis.norm(), R.trace() - 1) * (180 / std::numbers::pi);
+  return degrees < 1e-6 ? 0 : degrees;
 }
 
 Field field_of(FieldKind kind, std::span<const Vec3> rest, std::span<const LayerResult> layers, Index map) {

@@ -195,7 +195,7 @@ sequence() {
   sleep 1
   point 676 662 # the offer's button
   xdotool click 1
-  until_done 60 title '^scan.%04d.ply - Sinew$'
+  until_done 60 title '^scan.####.ply - Sinew$'
   sleep 1
   shot sequence
   leave
