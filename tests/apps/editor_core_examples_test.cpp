@@ -178,6 +178,12 @@ TEST_F(EditorExamples, WhatIsNoPoseIsNamedAndChangesNothing) {
   open({folder / "other.obj"});
   EXPECT_EQ(session.take_declined(), folder / "other.obj");
   EXPECT_EQ(session.take_declined(), std::nullopt);
+  // What can't be read is no shape either.
+  io::save_bytes(folder / "cut.obj", std::as_bytes(std::span("v 1 2\n", 6)), true);
+  const std::string said_of_cut = open({folder / "cut.obj"});
+  EXPECT_NE(said_of_cut.find("cut.obj"), std::string::npos) << said_of_cut;
+  EXPECT_EQ(said_of_cut.find("examples"), std::string::npos) << said_of_cut;
+  EXPECT_EQ(session.take_declined(), std::nullopt);
   EXPECT_EQ(session.input_path(), folder / "rest.obj");
   EXPECT_EQ(session.examples().size(), 2u);
   session.open_shape(folder / "other.obj");
