@@ -2,7 +2,7 @@
 # editor_test.sh PROGRAMS story|time|splats|motion|cancel|large|storm
 #
 # Uses the window as a person would: real mouse and keys on a screen of its own, with the validation layer on.
-#   story  opens the sample scan, marks head and feet, drags, undoes, redoes, saves, exports; the command line must come
+#   story  opens the sample scan, marks head and feet by lasso, drags, undoes, redoes, saves, exports; the command line must come
 #          to the same points; the recorded events, played again, too; a broken file is a sentence and changes nothing
 #   time   opens the walking foal, marks, goes to another frame and drags there, which sets a key; plays, undoes, redoes,
 #          saves, exports all frames; the command line must come to the same frames
@@ -27,36 +27,39 @@ story() {
   sleep 2
   press Return # the standard navigation
   shot open
-  drag 530 105 665 215
+  did press q
+  did lasso 530 105 600 95 665 150 660 215 600 225 545 200
   shot selected
-  press h
+  did press h
   sleep 2
-  drag 370 490 570 600
-  press k
+  did lasso 370 490 570 490 570 600 370 600
+  did press k
   sleep 2
   looks_like marked
   shot marked
-  follow 592 170 60
+  did follow 592 170 60
   sleep 2
   looks_like dragged
   ! within "$(unlike "$work/marked.png" "$work/dragged.png")" 0.02 || fail "pictures of two shapes are not told apart"
   shot dragged
   until_done 10 title '^scan.ply \* - Sinew$'
-  press ctrl+z
+  did press ctrl+z
   sleep 1
   shot undone
-  press ctrl+e
+  press ctrl+e # to see that nothing is left
   name "$work/undone.ply"
   until_done 30 test -s "$work/undone.ply"
   within "$(distance "$scan" "$work/undone.ply")" 0 || fail "undo left the shape bent"
-  press ctrl+shift+z
+  did press ctrl+shift+z
   sleep 1
-  press ctrl+s
+  press ctrl+s # for the command line
   name "$work/edit.json"
   until_done 30 test -s "$work/edit.json"
-  press ctrl+e
-  name "$work/window.ply"
+  did press ctrl+e
+  did name "$work/window.ply"
   until_done 30 test -s "$work/window.ply"
+  echo "$actions clicks and keys from the open scan to the exported one"
+  [ "$actions" -le 12 ] || fail "more than 12 clicks and keys"
   sleep 1
   shot saved
   latency "$work/times" "79,000 points"

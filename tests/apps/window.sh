@@ -52,6 +52,13 @@ start_editor() {
   editor_pid=$!
 }
 
+# did COMMAND...: what a person would count as one click or key.
+actions=0
+did() {
+  actions=$((actions + 1))
+  "$@"
+}
+
 title() { xdotool search --name "$1"; }
 shot() { if [ -n "${SHOTS:-}" ] && command -v import >/dev/null; then sleep 1; import -window root "$SHOTS/$what-$1.png"; fi; }
 
@@ -93,6 +100,19 @@ drag() {
   sleep 0.2
   for part in 1 2 3; do point $(($1 + ($3 - $1) * part / 3)) $(($2 + ($4 - $2) * part / 3)); done
   sleep 0.2
+  xdotool mouseup 1
+  sleep 0.6
+}
+
+# lasso X Y X Y ...: around these corners, with the left button.
+lasso() {
+  point "$1" "$2"
+  xdotool mousedown 1
+  sleep 0.2
+  while [ $# -ge 2 ]; do
+    point "$1" "$2"
+    shift 2
+  done
   xdotool mouseup 1
   sleep 0.6
 }
