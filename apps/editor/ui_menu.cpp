@@ -35,6 +35,15 @@ void show_item(Ui& ui, const Command& command) {
     if (const std::string why = command.why_not(ui.context); !why.empty()) widget::tooltip(why);
 }
 
+/// BeginMenu of a popup that fits below the bar and scrolls if it must. A taller one would be pushed up over the bar,
+/// under the mouse, and the release of the click that opens it would choose a row.
+bool begin_menu(const std::string& name) {
+  const float height =
+      ImGui::GetIO().DisplaySize.y - px(measure::menu_bar) - 2 * ImGui::GetStyle().DisplaySafeAreaPadding.y;
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {FLT_MAX, std::max(px(measure::row), height)});
+  return ImGui::BeginMenu(name.c_str());
+}
+
 /// Rows of one menu path, with its submenus where their first row stands.
 void show_rows(Ui& ui, const std::string& menu) {
   std::vector<std::string> shown;
@@ -46,7 +55,7 @@ void show_rows(Ui& ui, const std::string& menu) {
       const std::string name = path.substr(menu.size() + 1, path.find('/', menu.size() + 1) - menu.size() - 1);
       if (std::find(shown.begin(), shown.end(), name) != shown.end()) continue;
       shown.push_back(name);
-      if (ImGui::BeginMenu(name.c_str())) {
+      if (begin_menu(name)) {
         show_rows(ui, menu + "/" + name);
         ImGui::EndMenu();
       }
@@ -117,7 +126,7 @@ void show_menu(Ui& ui) {
       if (root.empty() || std::find(roots.begin(), roots.end(), root) != roots.end()) continue;
       roots.push_back(root);
       const std::string name(root);
-      if (ImGui::BeginMenu(name.c_str())) {
+      if (begin_menu(name)) {
         show_rows(ui, name);
         ImGui::EndMenu();
       }
