@@ -165,7 +165,9 @@ void show_axes(Ui& ui) {
   View& view = ui.context.view;
   const float side = px(80), radius = px(29), ball = px(8.5f);
   const ImVec2 corner{ui.layout.column - side - px(12), ui.layout.top + px(8)};
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(0, 0));  // a panel's clip leaves half of it out
   widget::begin_panel("axes", corner, {side, side}, ImGuiWindowFlags_NoBackground);
+  ImGui::PopStyleVar();
   ImDrawList* list = ImGui::GetWindowDrawList();
   const ImVec2 centre{corner.x + 0.5f * side, corner.y + 0.5f * side};
   const Mat3 R = gpu::view_matrix(view.camera).topLeftCorner<3, 3>();
