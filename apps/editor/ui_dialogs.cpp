@@ -61,7 +61,7 @@ void show_preferences(Ui& ui) {
     ui.context.view.up = chosen.up;
     ui.context.view.camera = levelled(ui.context.view.camera, chosen.up);
   }
-  widget::label("Desktop dialogs", "Open and save by the file dialog of the desktop, where there is one");
+  widget::label("System dialogs", "Open and save by the file dialog of the desktop, where there is one");
   widget::checkbox("##native", chosen.native_dialogs);
   ImGui::Dummy({0, px(8)});
   if (widget::button("Done", true)) ui.settings = false;
