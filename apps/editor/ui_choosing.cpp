@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "apps/editor/gui.h"
 #include "apps/editor/theme.h"
 #include "apps/editor/ui.h"
 #include "apps/editor/widgets.h"
@@ -135,6 +136,9 @@ bool show_histogram(AttributeRange& range) {
 }
 
 bool show_range(Ui& ui, AttributeRange& range) {
+  ImGui::PushFont(fonts().bold);
+  ImGui::TextUnformatted("Select by attribute");
+  ImGui::PopFont();
   const std::vector<std::string> names = range_choices(*ui.context.session.input());
   auto chosen = static_cast<std::size_t>(std::find(names.begin(), names.end(), range.name) - names.begin());
   widget::label("Attribute", "x, y and z are those of the file, at rest");
@@ -160,7 +164,7 @@ ImVec4 choosing_panel(const Ui& ui) {
   if (!view.choosing || !ui.context.session.has_input()) return {0, 0, 0, 0};
   const Volume* volume = view.choosing->volume();
   const float rows = volume == nullptr ? 3 : volume->kind == Volume::Kind::Box ? 7 : 5;
-  const float height = px(measure::row) * (rows + 2) + px(volume == nullptr ? histogram_height + 76 : 72);
+  const float height = px(measure::row) * (rows + 2) + px(volume == nullptr ? histogram_height + 96 : 72);
   // Below the axes where there is room.
   const float lowest = std::max(ui.layout.top + px(8), ui.layout.bottom - height - px(8));
   const float right = ui.layout.column - px(measure::edge), left = std::max(right - px(panel_width), tools_right(ui));

@@ -29,8 +29,9 @@ bool command_row(Ui& ui, const Command& command, bool chosen) {
   const bool enabled = command.enabled == nullptr || command.enabled(ui.context);
   const float y = at.y + std::round(0.5f * (height - ImGui::GetFontSize()));
   const ImVec4 color = enabled ? theme().text : theme().faint;
-  const std::string menu = std::string(command.menu) + " › ";
-  const std::string path = menu.size() > std::string(" › ").size() ? menu : "";
+  std::string path;
+  for (const char c : std::string(command.menu)) path += c == '/' ? " › " : std::string(1, c);
+  if (!path.empty()) path += " › ";
   widget::text_at(list, ImGui::GetFont(), {at.x + px(10), y}, theme().faint, path);
   widget::text_at(list, ImGui::GetFont(), {at.x + px(10) + ImGui::CalcTextSize(path.c_str()).x, y}, color,
                   command.title);

@@ -126,10 +126,13 @@ void show_switches(Ui& ui) {
     for (const char* name : spaces) width += std::round(ImGui::CalcTextSize(name).x) + px(18);
   }
   const float left = tools_right(ui);
-  if (left + width > ui.layout.column) return;  // View and Select have the same switches
+  const float top = ui.layout.top + px(measure::edge), height = px(measure::row) + 2 * px(4);
+  const ImVec4 panel = choosing_panel(ui);  // that may need their room
+  const bool covered = panel.z > 0 && panel.y < top + height && panel.x < left + width;
+  if (covered || left + width > ui.layout.column) return;  // View and Select have the same switches
   panel_style();
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, ImVec2(px(4), px(4)));
-  widget::begin_panel("switches", {left, ui.layout.top + px(measure::edge)}, {width, px(measure::row) + 2 * px(4)});
+  widget::begin_panel("switches", {left, top}, {width, height});
   const int depth = widget::switch_of("depth", depths, view.depth == Depth::VisibleOnly ? 0 : 1, depth_help);
   if (depth >= 0) {
     view.depth = depth == 0 ? Depth::VisibleOnly : Depth::Through;
