@@ -2,7 +2,9 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <numeric>
 
 #include "apps/editor/gui.h"
 #include "apps/editor/icons.h"
@@ -80,19 +82,68 @@ void show_palette(Ui& ui) {
 
 namespace {
 
-/// Height of a menu's block in the keymap.
-int block_rows(const std::vector<const Command*>& block) {
-  return static_cast<int>(block.size()) + 2;
+/// A heading with what is done, and by which keys or buttons.
+struct KeyBlock {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> rows;
+
+  std::size_t height() const { return rows.size() + 2; }  ///< in rows
+};
+
+std::string capital(std::string text) {
+  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
-void show_block(const std::string& name, const std::vector<const Command*>& block, float width) {
-  widget::heading(name, true);
-  for (const Command* command : block) {
+/// "middle button: orbit" as Orbit, Middle button.
+KeyBlock mouse_block(NavigationPreset preset) {
+  KeyBlock out{"MOUSE", {}};
+  for (const NavigationBinding& binding : navigation_bindings()) {
+    if (binding.preset != preset) continue;
+    const std::string help = binding.help;
+    const std::size_t colon = help.find(": ");
+    out.rows.emplace_back(capital(help.substr(colon + 2)), capital(help.substr(0, colon)));
+  }
+  out.rows.emplace_back("Zoom", "Wheel");
+  return out;
+}
+
+/// The mouse, then a block a menu, in their order.
+std::vector<KeyBlock> key_blocks(NavigationPreset preset) {
+  std::vector<KeyBlock> out{mouse_block(preset)};
+  for (const Command& command : commands()) {
+    if (command.shortcut[0] == 0) continue;
+    const std::string menu = command.menu;
+    std::string name = menu.substr(0, menu.find('/'));
+    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    auto at = std::find_if(out.begin(), out.end(), [&](const KeyBlock& block) { return block.name == name; });
+    if (at == out.end()) at = out.insert(at, KeyBlock{name, {}});
+    at->rows.emplace_back(command.title, command.shortcut);
+  }
+  return out;
+}
+
+/// The column of each block: the first in the first, the others from the longest on where least stands yet.
+std::vector<std::size_t> columns_of(const std::vector<KeyBlock>& blocks, std::size_t count) {
+  std::vector<std::size_t> heights(count, 0), out(blocks.size(), 0), order(blocks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin() + 1, order.end(),
+                   [&](std::size_t a, std::size_t b) { return blocks[a].height() > blocks[b].height(); });
+  for (const std::size_t i : order) {
+    const auto least = std::min_element(heights.begin(), heights.end());
+    out[i] = static_cast<std::size_t>(least - heights.begin());
+    *least += blocks[i].height();
+  }
+  return out;
+}
+
+void show_block(const KeyBlock& block, float width) {
+  widget::heading(block.name, true);
+  for (const auto& [title, keys] : block.rows) {
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList* list = ImGui::GetWindowDrawList();
-    const std::string keys = command->shortcut;
     const float keys_width = ImGui::CalcTextSize(keys.c_str()).x;
-    widget::text_at(list, ImGui::GetFont(), at, theme().text, widget::cut(command->title, width - keys_width - px(12)));
+    widget::text_at(list, ImGui::GetFont(), at, theme().text, widget::cut(title, width - keys_width - px(12)));
     widget::text_at(list, ImGui::GetFont(), {at.x + width - keys_width, at.y}, theme().quiet, keys);
     ImGui::Dummy({width, px(20)});
   }
@@ -102,50 +153,24 @@ void show_block(const std::string& name, const std::vector<const Command*>& bloc
 }  // namespace
 
 void show_keymap(Ui& ui) {
-  if (!widget::begin_dialog(ui.keymap, "keymap", 920, 544)) return;
+  if (!widget::begin_dialog(ui.keymap, "keymap", 1180, 528)) return;
   ImGui::PushFont(fonts().bold);
   ImGui::TextUnformatted("Keys and mouse");
   ImGui::PopFont();
-  std::vector<std::pair<std::string, std::vector<const Command*>>> blocks;
-  for (const Command& command : commands()) {
-    if (command.shortcut[0] == 0) continue;
-    const std::string menu = command.menu;
-    std::string name = menu.substr(0, menu.find('/'));
-    for (char& c : name) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    if (blocks.empty() || std::none_of(blocks.begin(), blocks.end(), [&](const auto& b) { return b.first == name; }))
-      blocks.emplace_back(name, std::vector<const Command*>{});
-    std::find_if(blocks.begin(), blocks.end(), [&](const auto& b) {
-      return b.first == name;
-    })->second.push_back(&command);
-  }
-  int all = 0;
-  for (const auto& [name, block] : blocks) all += block_rows(block);
+  widget::value_right("Esc closes", theme().quiet);
+  const std::vector<KeyBlock> blocks = key_blocks(ui.context.preferences.navigation);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, ImVec2(px(8), 0));
   ImGui::BeginChild("blocks", {0, 0}, false, ImGuiWindowFlags_NoNav);
-  const int columns = ImGui::GetContentRegionAvail().x > px(760)   ? 3
-                      : ImGui::GetContentRegionAvail().x > px(480) ? 2
-                                                                   : 1;
-  const float gap = px(32),
-              width = std::floor((ImGui::GetContentRegionAvail().x - gap * static_cast<float>(columns - 1) - px(8)) /
-                                 static_cast<float>(columns));
-  std::size_t next = 0;
-  for (int column = 0; column < columns; ++column) {
+  const float whole = ImGui::GetContentRegionAvail().x, gap = px(32);
+  const std::size_t count = whole > px(1000) ? 4 : whole > px(760) ? 3 : whole > px(480) ? 2 : 1;
+  const auto gaps = static_cast<float>(count - 1);
+  const float width = std::floor((whole - gap * gaps - px(8)) / static_cast<float>(count));
+  const std::vector<std::size_t> columns = columns_of(blocks, count);
+  for (std::size_t column = 0; column < count; ++column) {
     if (column > 0) ImGui::SameLine(0, gap);
     ImGui::BeginGroup();
-    int rows = 0;
-    while (next < blocks.size() && (column == columns - 1 || rows == 0 ||
-                                    rows + block_rows(blocks[next].second) / 2 <= (all + columns - 1) / columns)) {
-      show_block(blocks[next].first, blocks[next].second, width);
-      rows += block_rows(blocks[next++].second);
-    }
-    if (column == columns - 1) {
-      widget::heading("MOUSE", true);
-      for (const NavigationBinding& binding : navigation_bindings()) {
-        if (binding.preset != ui.context.preferences.navigation) continue;
-        ImGui::TextUnformatted(binding.help);
-        ImGui::Dummy({0, px(4)});
-      }
-    }
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+      if (columns[i] == column) show_block(blocks[i], width);
     ImGui::EndGroup();
   }
   ImGui::EndChild();
