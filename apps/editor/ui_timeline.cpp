@@ -166,8 +166,11 @@ void show_keys(Ui& ui, ImDrawList* list, const Track& track) {
     draw_key(list, {x, y}, radius, packed(here || hovered ? theme().text : theme().handle), key.interpolation);
     if (hovered && !ImGui::IsMouseDragging(0)) {
       // Above the timeline, where it covers no other key.
-      ImGui::SetNextWindowPos({x, track.top - px(12)}, ImGuiCond_Always, {0.5F, 1});
-      widget::tooltip(fmt::format("Key at {}: drag to move, right click for more", key.frame));
+      const std::string help = fmt::format("Key at {}: drag to move, right click for more", key.frame);
+      const float half = 0.5F * widget::size_of(fonts().text, help).x + px(16);
+      const float middle = std::max(half, std::min(x, ui.layout.width - half));
+      ImGui::SetNextWindowPos({std::round(middle), track.top - px(12)}, ImGuiCond_Always, {0.5F, 1});
+      widget::tooltip(help);
     }
     ImGui::PopID();
   }
