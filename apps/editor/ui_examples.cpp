@@ -46,7 +46,7 @@ void show_example(Session& session, std::size_t k, const ExampleView& example) {
   if (use.ended) session.end_drag();
   ImGui::SameLine(0, gap);
   const bool pinned = example.pinned.has_value();
-  if (widget::icon_button(icon::pin, "pin", false, side, pinned ? theme().accent : theme().faint,
+  if (widget::icon_button(icon::pin, "pin", pinned, side, pinned ? theme().accent : theme().faint,
                           pinned ? "Held by you: click to let the handles find it" : "Hold it where it is"))
     session.pin_example(k, pinned ? std::nullopt : example.weight);
   ImGui::EndDisabled();

@@ -237,12 +237,14 @@ BarUse bar(const char* id, double& value, double min, double max, bool lit) {
     const float zero = place(0), end = place(value), edge = px(1);
     list->AddRectFilled({std::min(zero, end), from.y + edge}, {std::max(zero, end), to.y - edge},
                         packed(lit ? theme().accent : theme().quiet, lit ? 0.55f : 0.35f));
-    for (const double mark : {0.0, 1.0}) {
-      const float x = place(mark);
-      list->AddRectFilled({x, to.y - px(4)}, {x + edge, to.y - edge}, packed(theme().quiet));
-    }
     char text[32];
     ImFormatString(text, sizeof text, "%.2f", std::abs(value) < 0.005 ? 0 : value);
+    const float digits = to.x - px(8) - ImGui::CalcTextSize(text).x;
+    for (const double mark : {0.0, 1.0}) {
+      const float x = place(mark);
+      if (x + edge > digits - px(2)) continue;
+      list->AddRectFilled({x, to.y - px(4)}, {x + edge, to.y - edge}, packed(theme().quiet));
+    }
     right_inside(text, theme().text);
   }
   field_edge();
