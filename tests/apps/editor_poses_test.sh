@@ -8,6 +8,7 @@
 #   horse  opens a folder of poses of a horse alone, blends by a bar, pulls a hoof, where there are some (SINEW_SHARED, or
 #          ../shared beside the sources); prints how long the pictures of both took after their mouse events
 # SHOTS=FOLDER keeps screenshots. Exit status 77: skipped, with the reason.
+# shellcheck source=tests/apps/window.sh
 source "$(dirname "$0")/window.sh"
 
 # cylinder BEND TO TWIST RINGS: along y, of 24 points a ring, its ends closed, as OBJ; bent to x or z.

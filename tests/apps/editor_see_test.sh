@@ -9,6 +9,7 @@
 #   portal a desktop is there, whose own file dialog is asked: to open, and to export to a format that loses something,
 #          which the window then tells before it writes
 # SHOTS=FOLDER keeps screenshots. Exit status 77: skipped, with the reason.
+# shellcheck source=tests/apps/window.sh
 source "$(dirname "$0")/window.sh"
 
 for tool in xclip import convert; do

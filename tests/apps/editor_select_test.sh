@@ -8,6 +8,7 @@
 #   control  control points dropped by their file onto a strip that drifted, their residuals, the worst one framed; saved,
 #            exported; the command line must come to the same points and residuals; at scale 2
 # SHOTS=FOLDER keeps screenshots. Exit status 77: skipped, with the reason.
+# shellcheck source=tests/apps/window.sh
 source "$(dirname "$0")/window.sh"
 
 # by_name WORDS: a command, by the palette.

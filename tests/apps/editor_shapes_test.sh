@@ -7,6 +7,7 @@
 #   statue  a solid: its base fixed, a band above it painted rigid, its top turned by 120 degrees; exported; the command line
 #           must come to the same points, and the volume nearly stays
 # SHOTS=FOLDER keeps screenshots. Exit status 77: skipped, with the reason.
+# shellcheck source=tests/apps/window.sh
 source "$(dirname "$0")/window.sh"
 
 jet() {

@@ -16,6 +16,7 @@
 #   storm  500 sizes of the window, then hidden and shown again: no message, no more memory than after the first 100
 # Prints how long the pictures of a drag took after their mouse events. SHOTS=FOLDER keeps screenshots.
 # Exit status 77: skipped, with the reason.
+# shellcheck source=tests/apps/window.sh
 source "$(dirname "$0")/window.sh"
 
 story() {

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # What the tests of the window share: a screen of its own, real mouse and keys, screenshots, distances. To be sourced with
 # the folder of the programs and the name of the story as arguments.
 set -euo pipefail
