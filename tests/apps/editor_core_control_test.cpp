@@ -212,9 +212,7 @@ TEST_F(EditorControlPoints, ResidualsOfManyPointsAreTheirRms) {
   }
   ASSERT_TRUE(settle(session));
   ASSERT_TRUE(session.begin_drag(1));
-  Transform by;
-  by.move = {0.3, 0.1, 0};
-  session.drag_to(by);
+  session.drag_to(move_by({0.3, 0.1, 0}));
   session.end_drag();
   ASSERT_TRUE(settle(session));
   const std::vector<Residual> residuals = session.residuals();

@@ -79,9 +79,7 @@ class EditorRecovery : public ::testing::Test {
     session.mark_selection(Mark::Handle);
     ASSERT_TRUE(settle(session));
     ASSERT_TRUE(session.begin_drag(0));
-    Transform motion;
-    motion.move = Vec3(0, 0, 0.4);
-    session.drag_to(motion);
+    session.drag_to(move_by(Vec3(0, 0, 0.4)));
     session.end_drag();
     ASSERT_TRUE(settle(session));
     session.rename_layer(0, "Bent");

@@ -43,14 +43,6 @@ Transform scale_by(const Vec3& factors, const Vec3& pivot) {
   return out;
 }
 
-Transform turn_by(const Vec3& axis, double degrees, const Vec3& pivot) {
-  Transform out;
-  out.axis = axis;
-  out.degrees = degrees;
-  out.pivot = pivot;
-  return out;
-}
-
 Gizmo scale_gizmo() {
   Gizmo gizmo;
   gizmo.kind = GizmoKind::Scale;

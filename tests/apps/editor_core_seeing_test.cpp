@@ -75,19 +75,11 @@ class EditorSeeing : public ::testing::Test {
     ASSERT_TRUE(settle(session)) << errors_of(session);
   }
 
-  void mark(Mark what, const std::function<bool(const Vec3&)>& in) {
-    PointSet set(session.input()->size());
-    for (std::size_t i = 0; i < set.size(); ++i)
-      if (in(session.input()->positions[i] + session.input()->origin)) set.add(i);
-    session.select(set, SelectMode::Replace);
-    session.mark_selection(what);
-  }
+  void mark(Mark what, const std::function<bool(const Vec3&)>& in) { mark_where(session, what, in); }
 
   void move_handle(const Vec3& by) {
     ASSERT_TRUE(session.begin_drag(0));
-    Transform motion;
-    motion.move = by;
-    session.drag_to(motion);
+    session.drag_to(move_by(by));
   }
 
   /// Updates until the colours are those of the pose that is shown.
@@ -237,9 +229,7 @@ TEST_F(EditorSeeing, HeatMapsOfManyPointsCostAPictureLittle) {
     move_handle(Vec3(0, 0.1, 0));
     std::vector<double> times;
     for (int step = 0; step < 12; ++step) {
-      Transform motion;
-      motion.move = Vec3(0, 0.1 + 0.01 * step, 0);
-      session.drag_to(motion);
+      session.drag_to(move_by(Vec3(0, 0.1 + 0.01 * step, 0)));
       until(session, [&] { return session.shown_ticket() == session.asked(); });
       const double begin = seconds_now();
       painter.update(session, view);

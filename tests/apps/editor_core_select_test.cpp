@@ -257,9 +257,7 @@ TEST(EditorHiding, HiddenPointsStayThroughMarksAndDragsAndBend) {
   ASSERT_TRUE(settle(session));
   EXPECT_TRUE(intersected(session.selection(), half).empty()) << "it grew into what is hidden";
   ASSERT_TRUE(session.begin_drag(0));
-  Transform by;
-  by.move = {0, 0, 0.2};
-  session.drag_to(by);
+  session.drag_to(move_by({0, 0, 0.2}));
   session.end_drag();
   ASSERT_TRUE(settle(session));
   ASSERT_EQ(errors_of(session), "");

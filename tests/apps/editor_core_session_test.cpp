@@ -55,20 +55,6 @@ double distance(std::span<const Vec3> a, std::span<const Vec3> b) {
   return out;
 }
 
-Transform move_by(const Vec3& move) {
-  Transform motion;
-  motion.move = move;
-  return motion;
-}
-
-Transform turn_by(const Vec3& axis, double degrees, const Vec3& pivot) {
-  Transform motion;
-  motion.axis = axis;
-  motion.degrees = degrees;
-  motion.pivot = pivot;
-  return motion;
-}
-
 class EditorSession : public ::testing::Test {
  protected:
   /// A session that shows the bar, read from a file.

@@ -108,14 +108,6 @@ class EditorTet : public ::testing::Test {
   Session session{sinew::methods()};
 };
 
-Transform turn_by(const Vec3& axis, double degrees, const Vec3& pivot) {
-  Transform out;
-  out.axis = axis;
-  out.degrees = degrees;
-  out.pivot = pivot;
-  return out;
-}
-
 }  // namespace
 
 TEST_F(EditorTet, FollowsADragLiveAndEndsWhereTheCommandLineDoes) {
@@ -123,9 +115,7 @@ TEST_F(EditorTet, FollowsADragLiveAndEndsWhereTheCommandLineDoes) {
   const std::uint64_t before = session.bent_version();
   ASSERT_TRUE(session.begin_drag(0));
   for (int step = 1; step <= 3; ++step) {
-    Transform motion;
-    motion.move = Vec3(0.1 * step, 0, 0);
-    session.drag_to(motion);
+    session.drag_to(move_by(Vec3(0.1 * step, 0, 0)));
     const std::uint64_t ticket = session.asked();
     ASSERT_TRUE(until(session, [&] { return session.shown_ticket() == ticket; }));
     select_between(1.57, 2);
@@ -222,9 +212,7 @@ TEST_F(EditorTet, MarksRigidAndStiff) {
 
   // They steer the solve: a bend leaves the rigid part as it was.
   ASSERT_TRUE(session.begin_drag(0));
-  Transform motion;
-  motion.move = Vec3(0.5, -0.2, 0);
-  session.drag_to(motion);
+  session.drag_to(move_by(Vec3(0.5, -0.2, 0)));
   session.end_drag();
   ASSERT_TRUE(settle(session));
   EXPECT_LT(from_command_line(), 1e-5);

@@ -75,20 +75,12 @@ class EditorTime : public ::testing::Test {
     ASSERT_EQ(errors(), "");
   }
 
-  void mark(Mark what, const std::function<bool(const Vec3&)>& in) {
-    PointSet set(session.input()->size());
-    for (std::size_t i = 0; i < set.size(); ++i)
-      if (in(session.input()->positions[i] + session.input()->origin)) set.add(i);
-    session.select(set, SelectMode::Replace);
-    session.mark_selection(what);
-  }
+  void mark(Mark what, const std::function<bool(const Vec3&)>& in) { mark_where(session, what, in); }
 
   void drag(const Vec3& by) {
     ASSERT_TRUE(session.begin_drag(0));
     for (int step = 1; step <= 4; ++step) {
-      Transform motion;
-      motion.move = by * (step / 4.0);
-      session.drag_to(motion);
+      session.drag_to(move_by(by * (step / 4.0)));
       session.poll();
     }
     session.end_drag();
@@ -258,9 +250,7 @@ TEST_F(EditorTime, ItPlaysAndADragStopsThat) {
   ASSERT_TRUE(session.begin_drag(0));
   EXPECT_FALSE(session.playing());
   const int frame = session.frame();
-  Transform motion;
-  motion.move = Vec3(0, 0, 0.1);
-  session.drag_to(motion);
+  session.drag_to(move_by(Vec3(0, 0, 0.1)));
   session.end_drag();
   ASSERT_TRUE(settle());
   EXPECT_EQ(session.frame(), frame);
