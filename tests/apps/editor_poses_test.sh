@@ -59,10 +59,7 @@ poses() {
   cylinder 1.4 z 0 40 >"$work/poses/bent to the front, which has a long name.obj"
   cylinder 0 x 1.5 40 >"$work/poses/twisted.obj"
   cylinder 0 x 0 30 >"$work/other.obj"
-  start_editor "$work/rest.obj"
-  until_done 60 title '^rest.obj - Sinew$'
-  sleep 2
-  press Return # the standard navigation
+  first_start 'rest.obj' "$work/rest.obj"
   press ctrl+o
   click 600 251 # the folder
   shot dialog

@@ -41,10 +41,7 @@ recover() {
   "$programs/sinew-samples" "$work" scan 2>/dev/null
   rm -f "$work/scan.edit.json"
   local scan=$work/scan.ply
-  start_editor "$scan"
-  until_done 60 title '^scan.ply - Sinew$'
-  sleep 2
-  press Return # the standard navigation
+  first_start 'scan.ply' "$scan"
   drag 530 105 665 215
   press h
   sleep 2

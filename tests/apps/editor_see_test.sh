@@ -48,10 +48,7 @@ see() {
   local scan="$folder/scan.0001.ply"
   cp "$work/scan.ply" "$scan"
   cp "$work/scan.ply" "$folder/scan.0002.ply"
-  start_editor --times "$work/times" "$scan"
-  until_done 60 title '^scan.0001.ply - Sinew$'
-  sleep 2
-  press Return # the standard navigation
+  first_start 'scan.0001.ply' --times "$work/times" "$scan"
   shot offered
   drag 530 105 665 215
   press h

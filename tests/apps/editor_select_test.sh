@@ -48,10 +48,7 @@ fixed_points() { plain "$1" | sed -n 's/.*"fixed":\[{"indices":\[\([^]]*\)\].*/\
 pick() {
   "$programs/sinew-samples" "$work" scan 2>/dev/null
   rm -f "$work/scan.edit.json"
-  start_editor "$work/scan.ply"
-  until_done 60 title '^scan.ply - Sinew$'
-  sleep 2
-  press Return # the standard navigation
+  first_start 'scan.ply' "$work/scan.ply"
   press p
   click 530 105
   click 665 105
@@ -163,10 +160,7 @@ survey() {
 control() {
   strip >"$work/strip.ply"
   survey >"$work/survey.csv"
-  start_editor "$work/strip.ply"
-  until_done 60 title '^strip.ply - Sinew$'
-  sleep 2
-  press Return # the standard navigation
+  first_start 'strip.ply' "$work/strip.ply"
   press ctrl+o
   sleep 0.6
   xdotool type --delay 20 survey

@@ -13,10 +13,7 @@ source "$(dirname "$0")/window.sh"
 jet() {
   "$programs/sinew-samples" "$work" jet 2>/dev/null
   rm -f "$work"/*.edit.json
-  start_editor "$work/jet.####.ply"
-  until_done 60 title '^jet.####.ply - Sinew$'
-  sleep 2
-  press Return # the standard navigation
+  first_start 'jet.####.ply' "$work/jet.####.ply"
   shot open
   press Right Right Right Right Right Right Right Right Right Right
   click 640 676
@@ -61,10 +58,7 @@ jet() {
 statue() {
   "$programs/sinew-samples" "$work" cactus 2>/dev/null
   rm -f "$work"/*.edit.json
-  start_editor "$work/cactus.obj"
-  until_done 60 title '^cactus.obj - Sinew$'
-  sleep 2
-  press Return # the standard navigation
+  first_start 'cactus.obj' "$work/cactus.obj"
   press alt+z  # what stands behind, too
   drag 430 540 570 615
   press k

@@ -23,10 +23,7 @@ story() {
   "$programs/sinew-samples" "$work" scan 2>/dev/null
   rm -f "$work/scan.edit.json"
   local scan=$work/scan.ply
-  start_editor --record "$work/events" --times "$work/times" "$scan"
-  until_done 60 title '^scan.ply - Sinew$'
-  sleep 2
-  press Return # the standard navigation
+  first_start 'scan.ply' --record "$work/events" --times "$work/times" "$scan"
   shot open
   did press q
   did lasso 530 105 600 95 665 150 660 215 600 225 545 200
@@ -122,10 +119,7 @@ keys_of() { tr -d ' \n' <"$1" | grep -o '"keys":.*' | grep -o '"frame":[0-9]*' |
 animation() {
   "$programs/sinew-samples" "$work" walk 2>/dev/null
   rm -f "$work"/*.edit.json
-  start_editor "$work/walk.####.obj"
-  until_done 60 title '^walk.####.obj - Sinew$'
-  sleep 2
-  press Return # the standard navigation
+  first_start 'walk.####.obj' "$work/walk.####.obj"
   shot open
   drag 615 120 755 295
   press h
@@ -183,10 +177,7 @@ animation() {
 splats() {
   "$programs/sinew-samples" "$work" splats 2>/dev/null
   rm -f "$work/splats.edit.json"
-  start_editor "$work/splats.ply"
-  until_done 60 title '^splats.ply - Sinew$'
-  sleep 2
-  press Return
+  first_start 'splats.ply' "$work/splats.ply"
   shot open
   drag 530 105 665 215
   press h

@@ -53,6 +53,16 @@ start_editor() {
   editor_pid=$!
 }
 
+# first_start TITLE ARGUMENT...: the editor's first start with these files, and the standard navigation.
+first_start() {
+  local title=$1
+  shift
+  start_editor "$@"
+  until_done 60 title "^$title - Sinew\$"
+  sleep 2
+  press Return
+}
+
 # did COMMAND...: what a person would count as one click or key.
 actions=0
 did() {
